@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""examples/hopper.py with 1,000 rocks and a hopper of 5,184 facets: the time of a step, and whether anybody goes through.
+"""examples/hopper.py with 1,000 rocks and a hopper of 5,184 facets: the time of a step, and whether anybody goes
+through.
 
     [BODIES=1000] [STEPS=20000] /usr/bin/python3 benches/hopper.py
 
-Each triangle of the example's hopper is cut into nine. Results go to out/hopper: summary.json with targets, hopper.png, flow.csv.
+Each triangle of the example's hopper is cut into nine. Results go to out/hopper: summary.json with targets, hopper.png,
+flow.csv.
 """
 import json
 import os
@@ -27,12 +29,16 @@ RECORD = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attribute
 def main():
     OUT.mkdir(parents=True, exist_ok=True)
     finer(STL, OUT / "hopper.stl")
-    environment = {"BODIES": "1000", "STEPS": "20000", **os.environ, "HOPPER": str(OUT / "hopper.stl"), "OUTPUT": str(OUT)}
+    environment = {
+        "BODIES": "1000", "STEPS": "20000", **os.environ, "HOPPER": str(OUT / "hopper.stl"), "OUTPUT": str(OUT)
+    }
     subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "examples" / "hopper.py"], env=environment, check=True)
     summary = json.loads((OUT / "summary.json").read_text())
     summary["targets"] = [target(name, summary[field], most) for name, field, most in (
         ("contacts that failed", "failures", 0), ("rocks that went through the wall", "rocks_beside_the_hopper", 0))]
-    summary |= {"machine": machine.machine_line(), "date": machine.now(), "command": "/usr/bin/python3 benches/hopper.py"}
+    summary |= {
+        "machine": machine.machine_line(), "date": machine.now(), "command": "/usr/bin/python3 benches/hopper.py"
+    }
     write_summary(OUT / "summary.json", summary)
     print(f"{summary['bodies']} rocks, {summary['facets']} facets: {1e3 * summary['seconds_a_step']:.2f} ms a step")
     sys.exit(not all(row["met"] for row in summary["targets"]))

@@ -3,8 +3,8 @@
 
     scripts/yade.sh -j1 benches/mass_properties.py
 
-Cuboids with k = 0 are compared with Steiner's formula, the sphere with its closed form, and the others with the same quadrature to 1e-9, whose
-own error is bounded by what it says.
+Cuboids with k = 0 are compared with Steiner's formula, the sphere with its closed form, and the others with the same
+quadrature to 1e-9, whose own error is bounded by what it says.
 """
 import math
 import time
@@ -16,18 +16,22 @@ TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8)
 
 
 def rounded_cuboid(half, r):
-    """Volume, and moments of inertia about the axes, of the Minkowski sum of a box and a ball; `half` reaches the faces."""
+    """Volume, and moments of inertia about the axes, of the Minkowski sum of a box and a ball; `half` reaches the
+    faces.
+    """
     a = [one - r for one in half]
     volume, second = 0.0, [0.0] * 3
     for outside in range(8):
         free = [axis for axis in range(3) if outside >> axis & 1]
         box = math.prod(2 * a[axis] for axis in range(3) if axis not in free)
         # Volume, and integrals of |s| and s^2 along an axis, of the ball of the dimension that is left.
-        ball, first, square = ((1, 0, 0), (2 * r, r**2, 2 / 3 * r**3), (math.pi * r**2, 4 / 3 * r**3, math.pi / 4 * r**4),
+        ball, first, square = ((1, 0, 0), (2 * r, r**2, 2 / 3 * r**3), (math.pi * r**2, 4 / 3 * r**3,
+                                                                        math.pi / 4 * r**4),
                                (4 / 3 * math.pi * r**3, math.pi / 2 * r**4, 4 / 15 * math.pi * r**5))[len(free)]
         volume += box * ball
         for axis in range(3):
-            second[axis] += box * (a[axis]**2 * ball + 2 * a[axis] * first + square if axis in free else a[axis]**2 / 3 * ball)
+            second[axis] += box * (a[axis]**2 * ball + 2 * a[axis] * first + square if axis in free else a[axis]**2 / 3
+                                   * ball)
     return volume, [sum(second) - one for one in second]
 
 
@@ -63,7 +67,9 @@ def main():
         for tolerance in TOLERANCES:
             found, moments, error, seconds = measured(particle, tolerance)
             off = max(abs(one / other - 1.0) for one, other in zip(moments, inertia))
-            print(f"| {name} | {tolerance:.0e} | {abs(found / volume - 1.0):.0e} | {off:.0e} | {error:.0e} | {1e3 * seconds:.2g} |", flush=True)
+            print(
+                f"| {name} | {tolerance:.0e} | {abs(found / volume - 1.0):.0e} | {off:.0e} | {error:.0e} | {1e3 * seconds:.2g} |",
+                flush=True)
 
 
 main()

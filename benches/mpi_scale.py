@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""When several processes pay: steps of a wide pile on one process, two threads, and two and three ranks; and a model of many nodes.
+"""When several processes pay: steps of a wide pile on one process, two threads, and two and three ranks; and a model of
+many nodes.
 
     benches/mpi_scale.py [RUN ...]       (RUN: a name in RUNS; default: all that have no result yet)
 
-The pile is made of equal tiles at rest. Each run writes its result to out/mpi/scale; with all there, summary.json, scale.png and
-a table follow. The machine must be left alone meanwhile: several minutes and 8 GB.
+The pile is made of equal tiles at rest. Each run writes its result to out/mpi/scale; with all there, summary.json,
+scale.png and a table follow. The machine must be left alone meanwhile: several minutes and 8 GB.
 """
 
 import json
@@ -60,8 +61,8 @@ def measure(name):
 
 def start(ranks, threads, **environment):
     launcher = [TOP / "scripts" / "yade.sh"] if ranks == 1 else [TOP / "scripts" / "yade_mpi.sh", str(ranks)]
-    done = subprocess.run([*launcher, f"-j{threads}", TOP / "benches" / "yade" / "tiles.py"], env={**os.environ, **environment},
-                          stdout=subprocess.DEVNULL)
+    done = subprocess.run([*launcher, f"-j{threads}", TOP / "benches" / "yade" / "tiles.py"],
+                          env={**os.environ, **environment}, stdout=subprocess.DEVNULL)
     if done.returncode:
         raise SystemExit(f"mpi_scale.py: {environment} on {ranks} ranks ended with exit code {done.returncode}.")
 
@@ -95,7 +96,9 @@ def busy(runs):
 
 
 def contact_costs(runs):
-    """Seconds for a pair that is looked at, and more for one in contact: least squares of relative errors over all runs."""
+    """Seconds for a pair that is looked at, and more for one in contact: least squares of relative errors over all
+    runs.
+    """
     seconds = np.array([part["engines"]["contacts"] for part in busy(runs)])
     counts = np.array([(part["pairs"], part["contacts"]) for part in busy(runs)])
     return map(float, np.linalg.lstsq(counts / seconds[:, None], np.ones(len(seconds)), rcond=None)[0])
@@ -144,10 +147,14 @@ def report(runs):
         one = runs[f"{size}_1"]["parts"][0]
         for name in [name for name in RUNS if name.startswith(size)]:
             seconds = runs[name]["parts"][0]["seconds"]
-            rows.append({"run": name, "bodies": one["bodies"] - 5, "seconds": seconds, "ratio": one["seconds"] / seconds,
-                         "pairs": sum(part["pairs"] for part in runs[name]["parts"])})
+            rows.append({
+                "run": name, "bodies": one["bodies"] - 5, "seconds": seconds, "ratio": one["seconds"] / seconds,
+                "pairs": sum(part["pairs"] for part in runs[name]["parts"])
+            })
     ratio = {row["run"]: row["ratio"] for row in rows}
-    error = max(abs(at_rest(runs, name, cost) / runs[name]["parts"][0]["seconds"] - 1) for name in ("small_2", "small_3", "large_3"))
+    error = max(
+        abs(at_rest(runs, name, cost) / runs[name]["parts"][0]["seconds"] - 1)
+        for name in ("small_2", "small_3", "large_3"))
     model = [
         {
             "bodies": bodies,
@@ -161,7 +168,8 @@ def report(runs):
     targets = [
         target("step of one process over that of 3 ranks, 20,160 bodies", "at least", 1.0, ratio["small_3"]),
         target("the same, 100,800 bodies", "at least", 1.0, ratio["large_3"]),
-        target("model against the measured steps of 2 and 3 ranks, largest relative difference", "at most", 0.25, error),
+        target("model against the measured steps of 2 and 3 ranks, largest relative difference", "at most", 0.25,
+               error),
     ]
     write_summary(OUT / "summary.json", {"targets": targets, "runs": rows, "costs_s": cost, "model": model,
                                          "machine": machine.machine_line(), "date": machine.now()})
@@ -193,9 +201,13 @@ def target(name, sense, limit, measured):
 
 def draw(rows, model):
     figure, (left, right) = plt.subplots(1, 2, figsize=(9.5, 3.6), dpi=150)
-    labels = {"1": "one process", "1_ball": "one process, boxes of balls", "threads": "two threads", "2": "2 ranks, 1 worker", "3": "3 ranks, 2 workers"}
+    labels = {
+        "1": "one process", "1_ball": "one process, boxes of balls", "threads": "two threads", "2": "2 ranks, 1 worker",
+        "3": "3 ranks, 2 workers"
+    }
     order = sorted(rows, key=lambda row: (row["bodies"], row["run"]), reverse=True)
-    left.barh([f"{labels[row['run'].split('_', 1)[1]]}, {row['bodies']:,}" for row in order], [1e6 * row["seconds"] / row["bodies"] for row in order], color="0.55")
+    left.barh([f"{labels[row['run'].split('_', 1)[1]]}, {row['bodies']:,}" for row in order],
+              [1e6 * row["seconds"] / row["bodies"] for row in order], color="0.55")
     left.set_xlabel("measured: step, µs for each body")
     for bodies in MODELLED:
         points = [(row["workers"], row["ratio"]) for row in model if row["bodies"] == bodies]

@@ -3,8 +3,8 @@
 
     [BODIES=10000] scripts/yade.sh -j2 benches/packing.py
 
-Results go to out/packing: summary.json with targets, packing.png. Leave the machine alone meanwhile: times are those of the clock
-on the wall; the processor's own seconds stand beside them.
+Results go to out/packing: summary.json with targets, packing.png. Leave the machine alone meanwhile: times are those of
+the clock on the wall; the processor's own seconds stand beside them.
 """
 
 import os
@@ -39,7 +39,9 @@ def main():
     edge = (count / 10_000) ** (1 / 3) * 20.0
     runs = {}
     for name, dense, sizes, height in [
-        ("scattered", False, 1.0, 3.0 * edge), ("settled", True, 1.0, 2.0 * edge), ("settled, graded", True, GRADING, 2.0 * edge),
+        ("scattered", False, 1.0, 3.0 * edge),
+        ("settled", True, 1.0, 2.0 * edge),
+        ("settled, graded", True, GRADING, 2.0 * edge),
     ]:
         space = packing.Box((0, 0, 0), (edge, edge, height))
         runs[name], placements = measured(space, rocks, sizes, count, dense)
@@ -51,7 +53,9 @@ def main():
         "targets": targets, "runs": runs, "bodies": count, "threads": THREADS,
         "machine": machine.machine_line(), "date": machine.now(), "command": "scripts/yade.sh -j2 benches/packing.py",
     })
-    rows = [(one["name"], f"{one['measured']:.3g} ({one['sense']} {one['target']}: {'met' if one['met'] else 'MISSED'})") for one in targets]
+    rows = [(one["name"],
+             f"{one['measured']:.3g} ({one['sense']} {one['target']}: {'met' if one['met'] else 'MISSED'})")
+            for one in targets]
     print_table([*rows, ("results", f"{OUT}: summary.json, packing.png")])
 
 
@@ -96,7 +100,8 @@ def compare(runs, count):
     rows = [
         (f"{count:,} rocks settled, seconds on {THREADS} cores", runs["settled"]["seconds"], "<=", 60.0),
         (f"{count:,} rocks scattered, seconds on {THREADS} cores", runs["scattered"]["seconds"], "<=", 60.0),
-        ("solid fraction of the settled rocks, in the middle", runs["settled"]["solid_fraction_of_the_middle"], ">=", 0.5),
+        ("solid fraction of the settled rocks, in the middle", runs["settled"]["solid_fraction_of_the_middle"], ">=",
+         0.5),
         ("pairs that overlap", sum(run["overlapping"] for run in runs.values()), "<=", 0),
         ("rocks without a place", sum(count - run["bodies"] for run in runs.values()), "<=", 0),
     ]

@@ -25,7 +25,8 @@ from matplotlib.lines import Line2D
 from matplotlib.ticker import LogLocator, NullFormatter
 
 # Title, formulation and families of each panel.
-ROUNDED, FLAT = ["generic", "far_origin", "scaled_units", "sphere_mix"], ["face_face", "edge_edge", "plates", "polyhedra_k0"]
+ROUNDED, FLAT = ["generic", "far_origin", "scaled_units",
+                 "sphere_mix"], ["face_face", "edge_edge", "plates", "polyhedra_k0"]
 PANELS = [
     ("midway: rounded bodies", "midway", ROUNDED),
     ("midway: faces, edges, plates, k = 0", "midway", FLAT),
@@ -68,7 +69,8 @@ def curve(by_tolerance, families):
     """Per tolerance, loosest first: median time, median error, worst error over the pairs that were answered."""
     points = []
     for tolerance in sorted(by_tolerance, reverse=True):
-        known = [(time, min(max(error, LEAST_ERROR), MOST_ERROR)) for family, time, error, answered, _ in by_tolerance[tolerance]
+        known = [(time, min(max(error, LEAST_ERROR), MOST_ERROR))
+                 for family, time, error, answered, _ in by_tolerance[tolerance]
                  if family in families and answered and error is not None]
         if known:
             times, errors = zip(*known)
@@ -150,8 +152,9 @@ def main():
                if any(key[0] == solver for key in data)]
     handles += [Line2D([], [], color="#555555", marker="o", label="filled: median error over the pairs"),
                 Line2D([], [], color="#555555", marker="o", ls=":", lw=1, mfc="white", label="open: worst error")]
-    legend = figure.legend(handles=handles, loc="lower center", ncol=1, fontsize=12, frameon=False,
-                           title="solver: pairs without an answer + pairs on the wrong side of contact, at its usual tolerance")
+    legend = figure.legend(
+        handles=handles, loc="lower center", ncol=1, fontsize=12, frameon=False,
+        title="solver: pairs without an answer + pairs on the wrong side of contact, at its usual tolerance")
     legend.get_title().set_fontsize(12)
     figure.suptitle("Run time against error, one marker a tolerance; lower left is better", fontsize=17, y=0.985)
     figure.text(0.995, 0.006, f"{machine['processor']}, {machine['cores']} cores, {machine['date'][:10]}",

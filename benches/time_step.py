@@ -3,8 +3,10 @@
 
     make time-step        # a few minutes; SCENES="rods;plates" for some, whose results join those that are there; results in out/time_step
 
-A pile at rest, undamped, breaks with a step beyond its limit: its kinetic energy grows to four times what it is with a fifth of our step, and beyond that
-of a fall by a tenth of the rounding. The largest step with which it does not is found by bisection to 3 %. Before contacts, bodies fall on a wall, and the largest step is that with which the first impact brings no energy.
+A pile at rest, undamped, breaks with a step beyond its limit: its kinetic energy grows to four times what it is with a
+fifth of our step, and beyond that of a fall by a tenth of the rounding. The largest step with which it does not is
+found by bisection to 3 %. Before contacts, bodies fall on a wall, and the largest step is that with which the first
+impact brings no energy.
 """
 import json
 import math
@@ -42,8 +44,8 @@ def scene(name):
     material = (ConicJointMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=DENSITY, restitution=1.0) if joints
                 else FrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=DENSITY))
     O.materials.append(material)
-    placed = potential_particles.pack(packing.Box((0, 0, 0), (0.5, 0.5, 2.0)), KINDS[name], number=NUMBER, seed=1, progress=False,
-                                     margin=0.1 if name == "clumps" else 0.0)
+    placed = potential_particles.pack(packing.Box((0, 0, 0), (0.5, 0.5, 2.0)), KINDS[name], number=NUMBER, seed=1,
+                                      progress=False, margin=0.1 if name == "clumps" else 0.0)
     ids = potential_particles.add_packing(placed)
     if name == "clumps":
         # A cross-piece on each rod, which moves with it.
@@ -55,8 +57,10 @@ def scene(name):
         O.bodies.append(utils.wall(place, axis=axis))
     physics = springs
     if area:
-        physics = ([Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e8, ks_i=5e7, Knormal=1e8, Kshear=5e7, viscousDamping=0.0, useFaceProperties=False)],
-                   [Law2_SCG_KnKsPhys_KnKsLaw(neverErase=False)])
+        physics = ([
+            Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e8, ks_i=5e7, Knormal=1e8, Kshear=5e7, viscousDamping=0.0,
+                                           useFaceProperties=False)
+        ], [Law2_SCG_KnKsPhys_KnKsLaw(neverErase=False)])
     elif joints:
         physics = [Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()], [Law2_ScGeomConicPP_ConicJointPhys()]
     O.engines = [
@@ -70,7 +74,9 @@ def scene(name):
 
 
 def largest_energy(step, seconds, most=math.inf):
-    """Largest kinetic energy, J, of the pile that was saved, undamped, with this step; it ends once that is above `most`."""
+    """Largest kinetic energy, J, of the pile that was saved, undamped, with this step; it ends once that is above
+    `most`.
+    """
     O.loadTmp("rest")
     O.engines[3].dead = True
     O.engines[-1].damping, O.dt, end = 0.0, step, O.time + seconds
@@ -86,7 +92,8 @@ def of_pile(name):
     """(limit, ours of safety 1, YADE's of safety 1) in s."""
     scene(name)
     # Weight times a tenth of the rounding radius.
-    scale = sum(body.state.mass * GRAVITY * 0.1 * body.shape.r for body in O.bodies if isinstance(body.shape, PotentialParticle))
+    scale = sum(body.state.mass * GRAVITY * 0.1 * body.shape.r for body in O.bodies
+                if isinstance(body.shape, PotentialParticle))
     while O.time < 2.0 or utils.kineticEnergy() > 1e-3 * scale and O.time < 6.0:
         advance(O.iter + 100)
     O.saveTmp("rest")
@@ -142,19 +149,31 @@ def main():
     wanted = os.environ.get("SCENES")
     names = wanted.split(";") if wanted else [*KINDS, "rocks before an impact"]
     OUT.mkdir(parents=True, exist_ok=True)
-    kept = json.loads((OUT / "summary.json").read_text())["scenes"] if wanted and (OUT / "summary.json").exists() else {}
+    kept = json.loads(
+        (OUT / "summary.json").read_text())["scenes"] if wanted and (OUT / "summary.json").exists() else {}
     found = {name: tuple(one[key] for key in KEYS) for name, one in kept.items()}
     for name in names:
         limit, ours, yades = found[name] = of_impact() if "impact" in name else of_pile(name)
-        print(f"| {name} | {limit * 1e6:.0f} | {ours * 1e6:.0f} | {ours / limit:.2f} | {yades / limit:.2f} |", flush=True)
-    worst, least = max(ours / limit for limit, ours, _ in found.values()), min(ours / limit for limit, ours, _ in found.values())
-    targets = [{"name": "largest critical_time_step(safety=1) over the step that breaks a scene", "sense": "<=", "target": 1.0, "measured": worst, "met": worst <= 1.0},
-               {"name": "least of it, with the default safety", "sense": ">=", "target": 0.1, "measured": 0.5 * least, "met": 0.5 * least >= 0.1}]
-    write_summary(OUT / "summary.json", {"scenes": {name: dict(zip(KEYS, one)) for name, one in found.items()}, "targets": targets})
+        print(f"| {name} | {limit * 1e6:.0f} | {ours * 1e6:.0f} | {ours / limit:.2f} | {yades / limit:.2f} |",
+              flush=True)
+    worst, least = max(ours / limit for limit, ours, _ in found.values()), min(ours / limit
+                                                                               for limit, ours, _ in found.values())
+    targets = [{
+        "name": "largest critical_time_step(safety=1) over the step that breaks a scene", "sense": "<=", "target": 1.0,
+        "measured": worst, "met": worst <= 1.0
+    }, {
+        "name": "least of it, with the default safety", "sense": ">=", "target": 0.1, "measured": 0.5 * least,
+        "met": 0.5 * least >= 0.1
+    }]
+    write_summary(OUT / "summary.json",
+                  {"scenes": {name: dict(zip(KEYS, one))
+                              for name, one in found.items()}, "targets": targets})
     picture, axes = plt.subplots(figsize=(7, 3.2), layout="constrained")
     places = range(len(found))
-    axes.barh([place + 0.2 for place in places], [ours / limit for limit, ours, _ in found.values()], 0.38, label="critical_time_step(safety=1)")
-    axes.barh([place - 0.2 for place in places], [min(yades / limit, 3.0) for limit, _, yades in found.values()], 0.38, label="GlobalStiffnessTimeStepper")
+    axes.barh([place + 0.2 for place in places], [ours / limit for limit, ours, _ in found.values()], 0.38,
+              label="critical_time_step(safety=1)")
+    axes.barh([place - 0.2 for place in places], [min(yades / limit, 3.0) for limit, _, yades in found.values()], 0.38,
+              label="GlobalStiffnessTimeStepper")
     axes.axvline(1.0, color="black", lw=1)
     axes.set_yticks(list(places), list(found))
     axes.set_xlabel("step over the one beyond which the scene breaks (cut at 3)")

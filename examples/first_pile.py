@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Fifty particles fall into a box, and a picture of it. Run it inside YADE: yade -x -n -j1 examples/first_pile.py (LAW=joint: with contact patches)"""
+"""Fifty particles fall into a box, and a picture of it. Run it inside YADE: yade -x -n -j1 examples/first_pile.py
+(LAW=joint: with contact patches)
+"""
 import os
 
 import potential_particles
@@ -8,7 +10,8 @@ from potential_particles import boundaries, packing, shapes
 O.materials.append(FrictMat(young=1e8, poisson=0.3, frictionAngle=0.5, density=2600))
 kinds = [shapes.cuboid((0.2, 0.15, 0.1)), shapes.platonic_solid(8, edge=0.2), shapes.random_rock(seed=1, size=0.2)]
 for place in potential_particles.pack(packing.Box((-0.4, -0.4, 0), (0.4, 0.4, 1.8)), kinds, number=50):
-    potential_particles.add_packing([place], color=[(0.8, 0.4, 0.2), (0.2, 0.5, 0.7), (0.6, 0.6, 0.5)][kinds.index(place.shape)])
+    potential_particles.add_packing([place], color=[(0.8, 0.4, 0.2), (0.2, 0.5, 0.7),
+                                                    (0.6, 0.6, 0.5)][kinds.index(place.shape)])
 O.bodies.append(boundaries.box_walls((-0.4, -0.4, 0), (0.4, 0.4, 1.8)))
 O.engines = [
     ForceResetter(),

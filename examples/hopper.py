@@ -3,9 +3,9 @@
 
     yade -x -n -j2 examples/hopper.py
 
-Environment: BODIES (500), STEPS (25000), OUTPUT (out/hopper), LAW (point, or joint: contact patches), ROCK and HOPPER (.stl files: a closed convex rock of any size; a
-hopper in m whose axis is z and whose outlet lies at z = 0). Writes hopper.png (rocks half way, mass and rate of flow against
-time), flow.csv and summary.json. SI units; z up.
+Environment: BODIES (500), STEPS (25000), OUTPUT (out/hopper), LAW (point, or joint: contact patches), ROCK and HOPPER
+(.stl files: a closed convex rock of any size; a hopper in m whose axis is z and whose outlet lies at z = 0). Writes
+hopper.png (rocks half way, mass and rate of flow against time), flow.csv and summary.json. SI units; z up.
 """
 import os
 import sys
@@ -24,7 +24,8 @@ import matplotlib.pyplot as plt
 HERE = os.path.dirname(os.path.abspath(sys.argv[0]))
 COUNT, STEPS = int(os.environ.get("BODIES", 500)), int(os.environ.get("STEPS", 25_000))
 OUT = os.environ.get("OUTPUT", "out/hopper")
-ROCK, HOPPER = (os.environ.get(name) or os.path.join(HERE, "data", f"{name.lower()}.stl") for name in ("ROCK", "HOPPER"))
+ROCK, HOPPER = (os.environ.get(name) or os.path.join(HERE, "data", f"{name.lower()}.stl")
+                for name in ("ROCK", "HOPPER"))
 DIAMETER = 0.06  # of a ball of a rock's volume, m
 GONE = -0.6  # height below which a rock has left the scene, m
 
@@ -46,7 +47,8 @@ O.engines = [
     BoundWatch(),  # sees bodies that turn out of their boxes, so that the collider may rest
     InsertionSortCollider([Bo1_ConicPP_Aabb(), Bo1_Facet_Aabb()], verletDist=0.05 * DIAMETER,
                           avoidSelfInteractionMask=2),
-    ConicInteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    ConicInteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()],
+                         [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.1, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 mass = O.bodies[next(iter(ids))].state.mass

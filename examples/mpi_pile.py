@@ -3,8 +3,9 @@
 
     scripts/yade_mpi.sh 3 -j1 examples/mpi_pile.py
 
-Rank 0 holds the box, the other ranks divide the rocks; with one rank it is a serial run. Environment: BODIES (1000), STEPS (5000),
-OUTPUT (out/mpi_rocks). Writes rocks.*.pvd for ParaView and rocks.yade.gz, the saved scene, from which mpi.load goes on. SI units; z up.
+Rank 0 holds the box, the other ranks divide the rocks; with one rank it is a serial run. Environment: BODIES (1000),
+STEPS (5000), OUTPUT (out/mpi_rocks). Writes rocks.*.pvd for ParaView and rocks.yade.gz, the saved scene, from which
+mpi.load goes on. SI units; z up.
 """
 import os
 
@@ -23,7 +24,8 @@ def build():
     O.materials.append(FrictMat(young=2e7, poisson=0.3, frictionAngle=0.5, density=2600))
     side = SIZE * (2.0 * COUNT) ** (1 / 3)
     rocks = [shapes.random_rock(seed, size=SIZE) for seed in range(8)]
-    placed = potential_particles.pack(packing.Box((0, 0, 0), (side, side, 2 * side)), rocks, number=COUNT, progress=False)
+    placed = potential_particles.pack(packing.Box((0, 0, 0), (side, side, 2 * side)), rocks, number=COUNT,
+                                      progress=False)
     O.bodies.append(boundaries.box_walls((0, 0, 0), (side, side, 2 * side)))
     ids = potential_particles.add_packing(placed, color=(0.75, 0.55, 0.35))
     O.engines = [
@@ -55,8 +57,9 @@ def main():
     states, failures, steps = mpi.states(ids), mpi.failures(), O.iter
     mpi.save(os.path.join(OUT, "rocks.yade.gz"))
     if mpi.rank() == 0:
-        print(f"{COUNT} rocks on {mpi.ranks()} ranks, {steps} steps: mean height {states['position'][:, 2].mean():.3f} m, "
-              f"lowest {states['position'][:, 2].min():.3f} m; failures: {failures or 'none'}")
+        print(
+            f"{COUNT} rocks on {mpi.ranks()} ranks, {steps} steps: mean height {states['position'][:, 2].mean():.3f} m, "
+            f"lowest {states['position'][:, 2].min():.3f} m; failures: {failures or 'none'}")
 
 
 mpi.launch(main)

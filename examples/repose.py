@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Angle of repose: a cylinder full of rocks is lifted from a rough floor. yade -x -n -j2 examples/repose.py
 
-Environment: BODIES (600), FRICTION (30 degrees), OUTPUT (out/repose). Writes repose.png and summary.json. SI units; z up.
+Environment: BODIES (600), FRICTION (30 degrees), OUTPUT (out/repose). Writes repose.png and summary.json. SI units; z
+    up.
 """
 import os
 
@@ -12,19 +13,31 @@ from potential_particles import boundaries, files, packing, shapes
 from yade import *
 from yade import utils
 
-COUNT, FRICTION, OUT = int(os.environ.get("BODIES", 600)), float(os.environ.get("FRICTION", 30)), os.environ.get("OUTPUT", "out/repose")
-DIAMETER, RADIUS, LIFT = 0.03, 0.03 * (0.12 * COUNT) ** (1 / 3), 0.15  # of a ball of a rock's volume, of the cylinder, m; m/s
+COUNT, FRICTION, OUT = int(os.environ.get("BODIES",
+                                          600)), float(os.environ.get("FRICTION",
+                                                                      30)), os.environ.get("OUTPUT", "out/repose")
+DIAMETER, RADIUS, LIFT = 0.03, 0.03 * (0.12
+                                       * COUNT)**(1 / 3), 0.15  # of a ball of a rock's volume, of the cylinder, m; m/s
 for label, angle in ("rough", FRICTION), ("smooth", 0):
     O.materials.append(FrictMat(young=1e7, poisson=0.3, frictionAngle=np.radians(angle), density=2650, label=label))
 kinds = [shapes.random_rock(seed, elongation=0.8, flatness=0.75) for seed in range(8)]
-rocks = potential_particles.pack(packing.Cylinder((0, 0, 0), 0.95 * RADIUS, 10 * RADIUS), kinds, sizes=DIAMETER, number=COUNT)
+rocks = potential_particles.pack(packing.Cylinder((0, 0, 0), 0.95 * RADIUS, 10 * RADIUS), kinds, sizes=DIAMETER,
+                                 number=COUNT)
 ids = potential_particles.add_packing(rocks, material="rough", color=(0.75, 0.6, 0.42))
 O.bodies.append(utils.wall(0, axis=2, material="rough"))
-tube = O.bodies.append(boundaries.funnel(RADIUS, RADIUS, 10 * RADIUS, material="smooth", sides=24, mask=3))  # 2 is theirs alone: no pairs of two facets
-O.engines = [ForceResetter(), InsertionSortCollider([PotentialParticle2AABB(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb()], verletDist=0, avoidSelfInteractionMask=2),
-             ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Wall_ConicPP_ScGeom(), Ig2_Facet_ConicPP_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
-                                  [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
-             potential_particles.time_stepper(safety=0.8), NewtonIntegrator(damping=0.2, gravity=(0, 0, -9.81), exactAsphericalRot=True)]
+tube = O.bodies.append(boundaries.funnel(RADIUS, RADIUS, 10 * RADIUS, material="smooth", sides=24,
+                                         mask=3))  # 2 is theirs alone: no pairs of two facets
+O.engines = [
+    ForceResetter(),
+    InsertionSortCollider(
+        [PotentialParticle2AABB(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb()], verletDist=0, avoidSelfInteractionMask=2),
+    ConicInteractionLoop(
+        [Ig2_ConicPP_ConicPP_ScGeom(),
+         Ig2_Wall_ConicPP_ScGeom(), Ig2_Facet_ConicPP_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+        [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    potential_particles.time_stepper(safety=0.8),
+    NewtonIntegrator(damping=0.2, gravity=(0, 0, -9.81), exactAsphericalRot=True)
+]
 
 while O.time < 0.8 or utils.unbalancedForce() > 0.02 and O.time < 3:
     O.run(250, True)
@@ -40,9 +53,13 @@ distance = np.hypot(*(places[:, :2] - np.median(places[:, :2], axis=0)).T)
 edge = np.quantile(distance, 0.9)
 rings = np.linspace(0.1 * edge, 0.95 * edge, 9)
 within = [(distance >= a) & (distance < b) for a, b in zip(rings, rings[1:])]
-surface = np.array([(distance[one].mean(), np.quantile(places[one, 2], 0.95) + 0.5 * DIAMETER) for one in within if one.any()])
+surface = np.array([(distance[one].mean(), np.quantile(places[one, 2], 0.95) + 0.5 * DIAMETER) for one in within
+                    if one.any()])
 slope, base = np.polyfit(*surface.T, 1)
-summary = {"bodies": len(ids), "steps": O.iter, "angle_of_repose": np.degrees(np.arctan(-slope)), "radius": edge, "below_floor": int((places[:, 2] < 0).sum())}
+summary = {
+    "bodies": len(ids), "steps": O.iter, "angle_of_repose": np.degrees(np.arctan(-slope)), "radius": edge,
+    "below_floor": int((places[:, 2] < 0).sum())
+}
 os.makedirs(OUT, exist_ok=True)
 potential_particles.plot(os.path.join(OUT, "heap.png"), size=(800, 500), bodies=ids, towards=(0.3, -0.9, 0.25))
 picture, (left, right) = pyplot.subplots(1, 2, figsize=(10, 3.4), layout="constrained")

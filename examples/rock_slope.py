@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A slope of 591 blocks, cut by two joint sets: it slides or topples as friction says. Run it inside YADE: yade -x -n -j2 examples/rock_slope.py
+"""A slope of 591 blocks, cut by two joint sets: it slides or topples as friction says. Run it inside YADE: yade -x -n
+-j2 examples/rock_slope.py
 
-Environment: SECONDS (1.2), OUTPUT (out/rock_slope). Joints that dip out of the slope by 30 degrees cut columns; columns whose width over height is
-below tan(30) topple where they cannot slide (Goodman & Bray 1976). Writes a picture for each friction angle, and summary.json. SI units.
+Environment: SECONDS (1.2), OUTPUT (out/rock_slope). Joints that dip out of the slope by 30 degrees cut columns; columns
+whose width over height is below tan(30) topple where they cannot slide (Goodman & Bray 1976). Writes a picture for each
+friction angle, and summary.json. SI units.
 """
 import os
 
@@ -24,7 +26,9 @@ print(mass, f"{mass.too_small} cuts left out")
 def slope(friction):
     """The slope after some time: how many blocks turned (brown in the picture) and slid (blue)."""
     O.reset()
-    O.materials.append(ConicJointMat(normalStiffness=1e8, shearStiffness=2e7, frictionAngle=np.radians(friction), restitution=0.5, density=2600))
+    O.materials.append(
+        ConicJointMat(normalStiffness=1e8, shearStiffness=2e7, frictionAngle=np.radians(friction), restitution=0.5,
+                      density=2600))
     ids = rock.bodies(mass, rounding=0.1, fixed=mass.on_domain([rock.Domain.WEST, rock.Domain.BOTTOM]))
     O.engines = [
         ForceResetter(),
@@ -40,10 +44,14 @@ def slope(friction):
     turn = np.degrees([O.bodies[int(i)].state.rot().norm() for i in ids])
     turned, slid = turn > 5.0, (way > 0.2) & (turn <= 5.0)
     for i, leans, goes in zip(ids, turned, slid):
-        O.bodies[int(i)].shape.color = Vector3(0.82, 0.45, 0.25) if leans else Vector3(0.4, 0.55, 0.72) if goes else Vector3(0.72, 0.69, 0.62)
-    potential_particles.plot(os.path.join(OUT, f"friction_{friction}.png"), towards=(0.12, -1.0, 0.12), size=(1100, 620))
-    numbers = {"blocks": len(ids), "turned_by_5_degrees": int(turned.sum()), "slid_by_20_cm": int(slid.sum()), "largest_way_m": float(way.max()),
-               "steps": O.iter, "overlap_over_r": potential_particles.overlap_ratio()}
+        O.bodies[int(i)].shape.color = Vector3(
+            0.82, 0.45, 0.25) if leans else Vector3(0.4, 0.55, 0.72) if goes else Vector3(0.72, 0.69, 0.62)
+    potential_particles.plot(os.path.join(OUT, f"friction_{friction}.png"), towards=(0.12, -1.0, 0.12),
+                             size=(1100, 620))
+    numbers = {
+        "blocks": len(ids), "turned_by_5_degrees": int(turned.sum()), "slid_by_20_cm": int(slid.sum()),
+        "largest_way_m": float(way.max()), "steps": O.iter, "overlap_over_r": potential_particles.overlap_ratio()
+    }
     print(f"friction {friction} degrees: {numbers}")
     return numbers
 

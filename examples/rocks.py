@@ -3,8 +3,8 @@
 
     yade -x -n -j2 examples/rocks.py
 
-Environment: BODIES (500), STEPS (30000), OUTPUT (out/rocks), LAW (point, or joint: contact patches). Writes rocks.png, rocks.bodies.pvd and rocks.contacts.pvd with
-their frames for ParaView, and summary.json. SI units; z up.
+Environment: BODIES (500), STEPS (30000), OUTPUT (out/rocks), LAW (point, or joint: contact patches). Writes rocks.png,
+rocks.bodies.pvd and rocks.contacts.pvd with their frames for ParaView, and summary.json. SI units; z up.
 """
 import os
 
@@ -35,7 +35,8 @@ contacts = [Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Facet_ConicPP_ScGeom()]
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([PotentialParticle2AABB(), Bo1_Facet_Aabb()], verletDist=0),
-    InteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    InteractionLoop(contacts, [Ip2_FrictMat_FrictMat_FrictPhys()],
+                    [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 if potential_particles.joints.chosen():
@@ -58,7 +59,8 @@ summary = {
     "time_step_s": O.dt,
     "failures": sum(functor.failures for functor in contacts),
     "contacts": len(touching),
-    "largest_overlap_over_smallest_diameter": max((i.geom.penetrationDepth for i in touching), default=0.0) / GRADING[0][0],
+    "largest_overlap_over_smallest_diameter": max(
+        (i.geom.penetrationDepth for i in touching), default=0.0) / GRADING[0][0],
     "kinetic_energy_J": utils.kineticEnergy(),
     "mean_height_m": float(positions[:, 2].mean()),
 }

@@ -3,9 +3,9 @@
 
     yade -x -n -j1 examples/wedge.py          (LAW=joint in the environment: with contact patches)
 
-The wedge slides at two friction angles below the critical one. Its acceleration is linear in tan(friction angle), so that the
-line through both tells where it is zero. studies/wedge.py lowers friction under a resting wedge instead, for 19 wedges.
-SI units, angles in degrees; x east, y north, z up; the toe of the wedge is the origin.
+The wedge slides at two friction angles below the critical one. Its acceleration is linear in tan(friction angle), so
+that the line through both tells where it is zero. studies/wedge.py lowers friction under a resting wedge instead, for
+19 wedges. SI units, angles in degrees; x east, y north, z up; the toe of the wedge is the origin.
 """
 import os
 
@@ -61,7 +61,8 @@ def acceleration(friction_angle):
     ]
     if JOINTS:
         # The weight makes that overlap on a square metre.
-        potential_particles.use_joints(normalStiffness=state.mass * GRAVITY / 1e-4, shearStiffness=state.mass * GRAVITY / 1e-4, restitution=0.5)
+        potential_particles.use_joints(normalStiffness=state.mass * GRAVITY / 1e-4,
+                                       shearStiffness=state.mass * GRAVITY / 1e-4, restitution=0.5)
     O.dt = 1e-4
     looks = []
     begin = np.array(state.pos)

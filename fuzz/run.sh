@@ -6,8 +6,8 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
-# The flags of cargo-fuzz, but for the tracing of comparisons: it takes half of the time, and the comparisons that matter
-# here are of floating point, which it does not see. RUSTC_BOOTSTRAP lets the stable compiler take them.
+# The flags of cargo-fuzz, but for the tracing of comparisons: it takes half of the time, and the comparisons that
+# matter here are of floating point, which it does not see. RUSTC_BOOTSTRAP lets the stable compiler take them.
 export RUSTC_BOOTSTRAP=1
 export RUSTFLAGS="-Cpasses=sancov-module -Cllvm-args=-sanitizer-coverage-level=4 \
 -Cllvm-args=-sanitizer-coverage-inline-8bit-counters -Cllvm-args=-sanitizer-coverage-pc-table \

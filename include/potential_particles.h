@@ -1848,7 +1848,8 @@ pp_status pp_polyhedron_regular_solid(size_t faces,
 // Pointers: polyhedron is NULL or came from a pp_polyhedron function and was not released yet.
 void pp_polyhedron_free(struct pp_polyhedron *polyhedron);
 
-// Planes of the faces: rows of a, b, c, h, unit normals, largest face first.
+// Planes of the faces: rows of a, b, c, h, unit normals; half-spaces in the order given, other faces by
+// falling area.
 //
 // planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 // faces, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.

@@ -8,8 +8,8 @@ namespace potential_particles {
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-// With Q1, Q2 the axes of the ends, q = Q1^-1 Q2 = (w, v) of the angle a, H = Q1 sqrt(q) midway, and the bodies' turns f1 and f2 in the
-// axes H, the derivatives are
+// With Q1, Q2 the axes of the ends, q = Q1^-1 Q2 = (w, v) of the angle a, H = Q1 sqrt(q) midway, and the bodies' turns
+// f1 and f2 in the axes H, the derivatives are
 //     dt = G (f2 - f1),  G = (a/2)/sin(a/2) across the axis and 1 along it
 //     dH = (f1 + f2)/2 - tan(a/4)/2 axis x (f2 - f1)
 BondStrain::BondStrain(const Bond& bond, const BondedBody& one, const BondedBody& other)
@@ -68,8 +68,10 @@ BondStrain::Reaction BondStrain::reaction(const BondStiffness& stiffness) const
 Wrench BondStrain::dashpot(const BondStiffness& perArea, const Vector3d& velocity, const Vector3d& spin) const
 {
     const Vector3d v = axes.transpose() * velocity, w = axes.transpose() * spin;
-    const Vector3d force = bond.bondArea * Vector3d(perArea.normal * v.x(), perArea.shear * v.y(), perArea.shear * v.z());
-    const Vector3d moment = bond.bondMoments.cwiseProduct(Vector3d(perArea.shear * w.x(), perArea.normal * w.y(), perArea.normal * w.z()));
+    const Vector3d force = bond.bondArea
+        * Vector3d(perArea.normal * v.x(), perArea.shear * v.y(), perArea.shear * v.z());
+    const Vector3d moment = bond.bondMoments.cwiseProduct(
+        Vector3d(perArea.shear * w.x(), perArea.normal * w.y(), perArea.normal * w.z()));
     return { -(axes * force), -(axes * moment) };
 }
 

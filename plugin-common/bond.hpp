@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// A bond: an area that stays with both bodies and holds them together by springs, against opening, bending, shear and twist.
+// A bond: an area that stays with both bodies and holds them together by springs, against opening, bending, shear and
+// twist.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,20 +12,22 @@
 
 namespace potential_particles {
 
-// The bond has an end on each body, with a point and axes (x along the normal, y and z the principal axes of the area) that
-// coincided when it was made. u is the displacement of end 2 from end 1 in axes midway between both, t the rotation vector from the
-// axes of end 1 to those of end 2. With the area A and its second moments, plus what the joint held when it was bonded, u0 and t0,
+// The bond has an end on each body, with a point and axes (x along the normal, y and z the principal axes of the area)
+// that coincided when it was made. u is the displacement of end 2 from end 1 in axes midway between both, t the
+// rotation vector from the axes of end 1 to those of end 2. With the area A and its second moments, plus what the joint
+// held when it was bonded, u0 and t0,
 //
 //     W = 1/2 kn (A u_x^2 + By t_y^2 + Bz t_z^2) + 1/2 ks (A (u_y^2 + u_z^2) + J t_x^2),    u + u0 for u, t + t0 for t
 //
-// Force and torques are minus its derivatives. u and t only change sign when the bodies are exchanged, and rigid motions of both
-// change neither.
+// Force and torques are minus its derivatives. u and t only change sign when the bodies are exchanged, and rigid
+// motions of both change neither.
 struct Bond {
     bool bonded = false; // or, without an area yet, shall be
     double damage = 0; // share of the stiffness that softening has taken, 0 to 1
     double bondArea = 0; // 0: there is none
     Eigen::Vector3d bondMoments = Eigen::Vector3d::Zero(); // J, and the second moments against bending about y and z
-    Eigen::Vector3d bondPoint1 = Eigen::Vector3d::Zero(), bondPoint2 = Eigen::Vector3d::Zero(); // of the ends, from the centres, local axes
+    Eigen::Vector3d bondPoint1 = Eigen::Vector3d::Zero(),
+                    bondPoint2 = Eigen::Vector3d::Zero(); // of the ends, from the centres, local axes
     Eigen::Quaterniond bondTurn1 = Eigen::Quaterniond::Identity(), bondTurn2 = Eigen::Quaterniond::Identity();
     Eigen::Vector3d bondDisplacement = Eigen::Vector3d::Zero(), bondRotation = Eigen::Vector3d::Zero(); // u0, t0
     std::vector<double> bondRim; // corners, y and z in turn
@@ -86,7 +89,8 @@ public:
     Eigen::Vector3d slip() const { return axes.col(1) * displacement.y() + axes.col(2) * displacement.z(); }
     double twist() const { return rotation.x(); }
 
-    // Of dashpots over the area, so much per area across and along it, at middle(). velocity, spin: of body 2 against body 1.
+    // Of dashpots over the area, so much per area across and along it, at middle(). velocity, spin: of body 2 against
+    // body 1.
     Wrench dashpot(const BondStiffness& perArea, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) const;
 
 private:

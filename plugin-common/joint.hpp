@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// A joint between two bodies: what it is made of, what it remembers, how its bodies move, and what it does to them. Any unit system; vectors
-// in world axes; body 2 against body 1, and forces on body 2, unless said otherwise.
+// A joint between two bodies: what it is made of, what it remembers, how its bodies move, and what it does to them. Any
+// unit system; vectors in world axes; body 2 against body 1, and forces on body 2, unless said otherwise.
 #pragma once
 
 #include "bond.hpp"
@@ -76,8 +76,8 @@ struct JointMotion {
     }
 
     // lastNormal: 0 for a contact that is new.
-    static JointMotion of(const JointBody& one, const JointBody& other, const Eigen::Vector3d& point, const Eigen::Vector3d& normal,
-                          const Eigen::Vector3d& lastNormal, double dt)
+    static JointMotion of(const JointBody& one, const JointBody& other, const Eigen::Vector3d& point,
+                          const Eigen::Vector3d& normal, const Eigen::Vector3d& lastNormal, double dt)
     {
         const Eigen::Vector3d velocity = other.velocityAt(point) - one.velocityAt(point);
         return { point, normal, dt * (velocity - normal.dot(velocity) * normal), lastNormal.cross(normal),

@@ -10,8 +10,8 @@ namespace potential_particles {
 
 using Eigen::Vector3d;
 
-// Of dashpots beside springs of this stiffness, per area: 2 z sqrt(m K/A), m = 1/mobility the mass that the centre of pressure
-// moves; 0 where it moves none.
+// Of dashpots beside springs of this stiffness, per area: 2 z sqrt(m K/A), m = 1/mobility the mass that the centre of
+// pressure moves; 0 where it moves none.
 double JointLaw::dashpotPerArea(double stiffness, double mobility, double area) const
 {
     return mobility > 0 ? 2 * joint.dampingRatio * std::sqrt(stiffness / (mobility * area)) : 0;
@@ -19,7 +19,8 @@ double JointLaw::dashpotPerArea(double stiffness, double mobility, double area) 
 
 double JointLaw::energyAlong(const Springs& springs) const
 {
-    return 0.5 * (all.shearStiffness * springs.shear.squaredNorm() + all.twistStiffness * springs.twist * springs.twist);
+    return 0.5
+        * (all.shearStiffness * springs.shear.squaredNorm() + all.twistStiffness * springs.twist * springs.twist);
 }
 
 void JointLaw::takeStiffness(const ContactPatch& patch)
@@ -74,7 +75,8 @@ Wrench JointLaw::dashpotOfBond(const BondStrain& strain) const
 {
     const Vector3d n = strain.normal(), middle = strain.middle();
     const auto perArea = [&](const Vector3d& direction, double springs) {
-        return dashpotPerArea(springs, one.mobility(middle, direction) + other.mobility(middle, direction), memory.bondArea);
+        return dashpotPerArea(springs, one.mobility(middle, direction) + other.mobility(middle, direction),
+                              memory.bondArea);
     };
     return strain.dashpot({ perArea(n, joint.normalStiffness), perArea(n.unitOrthogonal(), joint.shearStiffness) },
                           other.velocityAt(middle) - one.velocityAt(middle), other.spin - one.spin);
@@ -96,8 +98,12 @@ void JointLaw::pushAsBond(const BondStrain& strain, const Wrench& damping)
     all.twistMoment = moment.dot(n);
     all.bendingMoment = moment - all.twistMoment * n;
     const Vector3d arm1 = strain.point1() - one.centre, arm2 = strain.point2() - other.centre;
-    all.onOne = { -force, reaction.torque1 - damping.moment - (middle - strain.point1()).cross(damping.force) - arm1.cross(force) };
-    all.onOther = { force, reaction.torque2 + damping.moment + (middle - strain.point2()).cross(damping.force) + arm2.cross(force) };
+    all.onOne = {
+        -force, reaction.torque1 - damping.moment - (middle - strain.point1()).cross(damping.force) - arm1.cross(force)
+    };
+    all.onOther = {
+        force, reaction.torque2 + damping.moment + (middle - strain.point2()).cross(damping.force) + arm2.cross(force)
+    };
 }
 
 void JointLaw::repeatAsBond(const Wrench& damping)
@@ -108,7 +114,8 @@ void JointLaw::repeatAsBond(const Wrench& damping)
 }
 
 // The patch as it is; the springs of the bond begin with what those of the joint hold.
-void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const PosedShape& shape1, const PosedShape& shape2)
+void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const PosedShape& shape1,
+                    const PosedShape& shape2)
 {
     const Vector3d& n = motion.normal;
     const PatchFrame frame(patch, { motion.point, n });
@@ -128,8 +135,10 @@ void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const 
     const Vector3d moment = frame.axes.transpose()
         * ((kn * patch.couple - all.twistStiffness * memory.twist) * n + (motion.point - frame.centroid).cross(held));
     const auto over = [](double load, double stiffness) { return stiffness > 0 ? -load / stiffness : 0; };
-    memory.bondDisplacement = Vector3d(over(force.x(), kn * patch.area), over(force.y(), ks * patch.area), over(force.z(), ks * patch.area));
-    memory.bondRotation = Vector3d(over(moment.x(), ks * memory.bondMoments.x()), over(moment.y(), kn * memory.bondMoments.y()),
+    memory.bondDisplacement = Vector3d(over(force.x(), kn * patch.area), over(force.y(), ks * patch.area),
+                                       over(force.z(), ks * patch.area));
+    memory.bondRotation = Vector3d(over(moment.x(), ks * memory.bondMoments.x()),
+                                   over(moment.y(), kn * memory.bondMoments.y()),
                                    over(moment.z(), kn * memory.bondMoments.z()));
     memory.bondRim.clear();
     for (const Eigen::Vector2d& corner : rimOf(patch, frame, shape1, shape2))
@@ -139,7 +148,8 @@ void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const 
     all.damping.moment += (motion.point - frame.centroid).cross(all.damping.force);
     memory.shearDisplacement = Vector3d::Zero();
     memory.twist = memory.energyAlong = 0;
-    const double energy = BondStrain(memory, { one.centre, one.turn }, { other.centre, other.turn }).energy({ kn, ks }, 0);
+    const double energy =
+        BondStrain(memory, { one.centre, one.turn }, { other.centre, other.turn }).energy({ kn, ks }, 0);
     all.energies.area += all.energies.elastic - energy;
     all.energies.elastic = energy;
 }
@@ -177,8 +187,9 @@ void JointLaw::holdAsPatch(const ContactPatch& patch, const JointMotion& motion)
     all.bendingMoment = all.damping.moment;
     all.energies.elastic = elasticPressure + memory.energyAlong;
     if (joint.dampingRatio > 0) {
-        all.energies.viscous = -dt * (all.damping.force.dot(other.velocityAt(motion.point) - one.velocityAt(motion.point))
-                                      + all.damping.moment.dot(other.spin - one.spin));
+        all.energies.viscous = -dt
+            * (all.damping.force.dot(other.velocityAt(motion.point) - one.velocityAt(motion.point))
+               + all.damping.moment.dot(other.spin - one.spin));
         if (!all.slides)
             dampAlong(patch, motion, limit);
     }
@@ -204,14 +215,15 @@ void JointLaw::repeatAsPatch(const ContactPatch& patch, const JointMotion& motio
     push();
 }
 
-// The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them stand at either edge of the
-// patch, not spread over it, so that what lands on a face is pushed at the edge that comes down, as Housner has it. The edges: of the
-// direction g in which the approach changes, sqrt(3) times the radius of gyration from the centroid, those of a rectangle along a side of it,
+// The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them stand at either
+// edge of the patch, not spread over it, so that what lands on a face is pushed at the edge that comes down, as Housner
+// has it. The edges: of the direction g in which the approach changes, sqrt(3) times the radius of gyration from the
+// centroid, those of a rectangle along a side of it,
 //
 //     y = -+ sqrt(3) I g / sqrt(A g.I g),
 //
-// with I the second moments of the area A. Neither edge is pulled more than the springs push there: what springs and dashpots do
-// together lies within the patch.
+// with I the second moments of the area A. Neither edge is pulled more than the springs push there: what springs and
+// dashpots do together lies within the patch.
 Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& motion) const
 {
     const Vector3d& n = motion.normal;
@@ -233,8 +245,8 @@ Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& mot
     return { force, (above - below) * edge.cross(n) + patch.centroid.cross(force) };
 }
 
-// The springs of the joint take along what they hold, and are drawn by the motion of this step; where the patch grows or shrinks, springs
-// join and leave.
+// The springs of the joint take along what they hold, and are drawn by the motion of this step; where the patch grows
+// or shrinks, springs join and leave.
 JointLaw::Springs JointLaw::springsAlong(const JointMotion& motion)
 {
     const Vector3d& n = motion.normal;
@@ -257,14 +269,16 @@ JointLaw::Springs JointLaw::springsAlong(const JointMotion& motion)
     return springs;
 }
 
-// Lets the springs slip where they hold more than friction and cohesion can; a joint that slips for the first time breaks. Returns what
-// these can hold after that.
+// Lets the springs slip where they hold more than friction and cohesion can; a joint that slips for the first time
+// breaks. Returns what these can hold after that.
 FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs& springs)
 {
     auto& [shear, twist] = springs;
     const FrictionForce trial { all.shearStiffness * shear.norm(), all.twistStiffness * std::abs(twist) };
     const double trialEnergy = energyAlong(springs);
-    const auto held = [&](const FrictionForce& limit) { return returned(trial, limit, all.shearStiffness, all.twistStiffness); };
+    const auto held = [&](const FrictionForce& limit) {
+        return returned(trial, limit, all.shearStiffness, all.twistStiffness);
+    };
     FrictionForce limit = limitOf(joint, memory.broken, patch, pressing), left = held(limit);
     all.slides = left.shear < trial.shear || left.twist < trial.twist;
     if (!all.slides)
@@ -275,8 +289,10 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
         limit = limitOf(joint, true, patch, pressing);
         left = held(limit);
     }
-    const double shearLeft = trial.shear > 0 ? left.shear / trial.shear : 0, twistLeft = trial.twist > 0 ? left.twist / trial.twist : 0;
-    all.energies.friction = left.shear * (1 - shearLeft) * shear.norm() + left.twist * (1 - twistLeft) * std::abs(twist);
+    const double shearLeft = trial.shear > 0 ? left.shear / trial.shear : 0,
+                 twistLeft = trial.twist > 0 ? left.twist / trial.twist : 0;
+    all.energies.friction = left.shear * (1 - shearLeft) * shear.norm()
+        + left.twist * (1 - twistLeft) * std::abs(twist);
     shear *= shearLeft;
     twist *= twistLeft;
     // What the strength was above the residual one is lost at once; friction does work over the slip.
@@ -285,7 +301,8 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
     return limit;
 }
 
-// While it sticks, the joint is damped along its plane as it is across it; spring and dashpot together hold no more than the limit.
+// While it sticks, the joint is damped along its plane as it is across it; spring and dashpot together hold no more
+// than the limit.
 void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, const FrictionForce& limit)
 {
     const Vector3d& increment = motion.shearIncrement;

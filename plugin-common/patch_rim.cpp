@@ -34,7 +34,8 @@ double PosedShape::depth(const Vector3d& point, Vector3d* gradient) const
     double potential = 0;
     Vector3d slope = Vector3d::Zero();
     if (particle)
-        if (const pp_status status = pp_particle_potential(particle, &pose, point.data(), &potential, slope.data()); status != PP_OK)
+        if (const pp_status status = pp_particle_potential(particle, &pose, point.data(), &potential, slope.data());
+            status != PP_OK)
             throw std::runtime_error(pp_status_message(status));
     const double s = std::sqrt(potential + 1);
     if (gradient)
@@ -49,29 +50,30 @@ double PosedShape::reach(const Vector3d& point) const
 
 namespace {
 
-    // The depth is concave along a ray and begins above 0: Newton's method from outside comes down to its end without crossing it, as that
-    // for a single body.
-    PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Vector3d& point, const Vector3d& direction)
-    {
-        const double outside = std::max(one.reach(point), other.reach(point));
-        PosedShape::Exit exit { outside, direction };
-        for (int step = 0; step < 100; ++step) {
-            const Vector3d at = point + exit.length * direction;
-            Vector3d gradient, ofOther;
-            const double depth = one.depth(at, &gradient) + other.depth(at, &ofOther);
-            gradient += ofOther;
-            const double slope = gradient.dot(direction), next = exit.length - depth / slope;
-            if (!(slope < 0) || !(next < exit.length))
-                break;
-            const bool last = exit.length - next < std::numeric_limits<double>::epsilon() * outside;
-            exit = { std::max(next, 0.0), -gradient };
-            if (last || next <= 0)
-                break;
-        }
-        for (const PosedShape* body : { &one, &other })
-            if (const PosedShape::Exit edge = body->exitOfTriangle(point, direction); edge.length < exit.length)
-                exit = edge;
-        return exit;
+    // The depth is concave along a ray and begins above 0: Newton's method from outside comes down to its end without
+    // crossing it, as that for a single body.
+PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Vector3d& point,
+                        const Vector3d& direction)
+{
+    const double outside = std::max(one.reach(point), other.reach(point));
+    PosedShape::Exit exit { outside, direction };
+    for (int step = 0; step < 100; ++step) {
+        const Vector3d at = point + exit.length * direction;
+        Vector3d gradient, ofOther;
+        const double depth = one.depth(at, &gradient) + other.depth(at, &ofOther);
+        gradient += ofOther;
+        const double slope = gradient.dot(direction), next = exit.length - depth / slope;
+        if (!(slope < 0) || !(next < exit.length))
+            break;
+        const bool last = exit.length - next < std::numeric_limits<double>::epsilon() * outside;
+        exit = { std::max(next, 0.0), -gradient };
+        if (last || next <= 0)
+            break;
+    }
+    for (const PosedShape* body : { &one, &other })
+        if (const PosedShape::Exit edge = body->exitOfTriangle(point, direction); edge.length < exit.length)
+            exit = edge;
+    return exit;
     }
 
     double cross(const Plane& a, const Plane& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -89,8 +91,8 @@ namespace {
         Plane at, outward;
     };
 
-    // The corners of such an area, from rays. Where the tangents at two neighbours meet is a corner if another ray ends there; if
-    // not, the rim has more corners in between, or is round.
+    // The corners of such an area, from rays. Where the tangents at two neighbours meet is a corner if another ray ends
+    // there; if not, the rim has more corners in between, or is round.
     template <class RimAlong> class CornerSearch {
     public:
         // spread: lengths in which the area is about as wide as high.
@@ -167,7 +169,8 @@ PatchFrame::PatchFrame(const ContactPatch& patch, const PatchPlace& place)
     alongZ = std::max(0.0, principal.eigenvalues()[1]);
 }
 
-std::vector<Plane> rimOf(const ContactPatch& patch, const PatchFrame& frame, const PosedShape& one, const PosedShape& other)
+std::vector<Plane> rimOf(const ContactPatch& patch, const PatchFrame& frame, const PosedShape& one,
+                         const PosedShape& other)
 {
     // An ellipse has these moments about axes of twice the radii of gyration.
     const Plane radii(2 * std::sqrt(frame.alongY / patch.area), 2 * std::sqrt(frame.alongZ / patch.area));
@@ -176,7 +179,10 @@ std::vector<Plane> rimOf(const ContactPatch& patch, const PatchFrame& frame, con
         const auto rimAlong = [&](const Plane& direction) {
             const Vector3d way = frame.at(direction) - frame.centroid;
             const PosedShape::Exit exit = exitOf(one, other, frame.centroid, way);
-            return RimPoint { exit.length * direction, Plane(frame.axes.col(1).dot(exit.outward), frame.axes.col(2).dot(exit.outward)).normalized() };
+            return RimPoint {
+                exit.length * direction,
+                Plane(frame.axes.col(1).dot(exit.outward), frame.axes.col(2).dot(exit.outward)).normalized()
+            };
         };
         corners = CornerSearch(radii, rimAlong).corners();
     }

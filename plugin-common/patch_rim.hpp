@@ -49,12 +49,17 @@ struct PatchFrame {
     Eigen::Matrix3d axes; // columns: normal, y and z
     double alongY, alongZ; // the integrals of y^2 and z^2 over the area
 
-    Eigen::Vector3d at(const Eigen::Vector2d& point) const { return centroid + axes.col(1) * point.x() + axes.col(2) * point.y(); }
+    Eigen::Vector3d at(const Eigen::Vector2d& point) const
+    {
+        return centroid + axes.col(1) * point.x() + axes.col(2) * point.y();
+    }
 };
 
-// The corners of a patch, y and z of its frame, counter-clockwise about the normal: where the depths of both bodies add up to 0, which does
-// not depend on how far off its plane one looks. An ellipse of the same moments where the patch is a disc in the
-// place of one, or leaves its plane so far that what lies in it has another area. Throws std::runtime_error where the library refuses a pose.
-std::vector<Eigen::Vector2d> rimOf(const ContactPatch& patch, const PatchFrame& frame, const PosedShape& one, const PosedShape& other);
+// The corners of a patch, y and z of its frame, counter-clockwise about the normal: where the depths of both bodies add
+// up to 0, which does not depend on how far off its plane one looks. An ellipse of the same moments where the patch is
+// a disc in the place of one, or leaves its plane so far that what lies in it has another area. Throws
+// std::runtime_error where the library refuses a pose.
+std::vector<Eigen::Vector2d> rimOf(const ContactPatch& patch, const PatchFrame& frame, const PosedShape& one,
+                                   const PosedShape& other);
 
 } // namespace potential_particles

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// The law of a contact at a point: a linear spring along the normal, Coulomb friction with a tangential spring (Cundall & Strack 1979), and
-// dashpots beside both. With restitution 1 it is YADE's Law2_ScGeom_FrictPhys_CundallStrack, formula by formula.
+// The law of a contact at a point: a linear spring along the normal, Coulomb friction with a tangential spring (Cundall
+// & Strack 1979), and dashpots beside both. With restitution 1 it is YADE's Law2_ScGeom_FrictPhys_CundallStrack,
+// formula by formula.
 #pragma once
 
 #include "restitution.hpp"
@@ -43,9 +44,10 @@ struct ContactForce {
     double slid, damped; // energy that friction and dashpots took in this step
 };
 
-// One step of `dt`. Where the step only repeats the last one (`advance` false, at the start of a run), the history stays
-// as it is, so that a run that was interrupted goes on as if it had not been.
-inline ContactForce contactForce(const LawParameters& law, const ContactMotion& motion, double dt, bool advance, ContactHistory& history)
+// One step of `dt`. Where the step only repeats the last one (`advance` false, at the start of a run), the history
+// stays as it is, so that a run that was interrupted goes on as if it had not been.
+inline ContactForce contactForce(const LawParameters& law, const ContactMotion& motion, double dt, bool advance,
+                                 ContactHistory& history)
 {
     using Eigen::Vector3d;
     const Vector3d& n = motion.normal;
@@ -85,7 +87,8 @@ inline ContactForce contactForce(const LawParameters& law, const ContactMotion& 
             force.damped = -0.5 * dt * (before + history.damping).dot(motion.velocity);
     }
     force.onB = spring * n + history.shear + history.damping;
-    force.elastic = 0.5 * spring * motion.overlap + (law.shearStiffness > 0 ? 0.5 * history.shear.squaredNorm() / law.shearStiffness : 0);
+    force.elastic = 0.5 * spring * motion.overlap
+        + (law.shearStiffness > 0 ? 0.5 * history.shear.squaredNorm() / law.shearStiffness : 0);
     return force;
 }
 

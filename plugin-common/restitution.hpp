@@ -9,8 +9,9 @@ namespace potential_particles {
 
 constexpr double leastRestitution = 0.01;
 
-// Of a mass that meets a spring with a dashpot of the ratio z to the critical one, and leaves when the force has fallen to 0
-// (no force pulls): ln e = -z/w (pi - atan2(2 z w, 2 z^2 - 1) ...), written with atan2 for either side of z = 1/sqrt(2).
+// Of a mass that meets a spring with a dashpot of the ratio z to the critical one, and leaves when the force has fallen
+// to 0 (no force pulls): ln e = -z/w (pi - atan2(2 z w, 2 z^2 - 1) ...), written with atan2 for either side of z =
+// 1/sqrt(2).
 inline double restitutionOf(double ratio)
 {
     const double z = ratio, w2 = 1 - z * z;

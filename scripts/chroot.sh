@@ -1,9 +1,9 @@
-# For scripts that work in a Debian of their own, in a folder; source it at the top of the tree, with SUITE (the release) and CACHE (an
-# absolute path, in which it and its packages stay between runs) set.
+# For scripts that work in a Debian of their own, in a folder; source it at the top of the tree, with SUITE (the
+# release) and CACHE (an absolute path, in which it and its packages stay between runs) set.
 #
-# own_namespaces SCRIPT starts SCRIPT anew, with mounts and processes of its own. After that, with ROOT set to a folder, prepare makes
-# a Debian in it, prepare_to_build one with Rust, and inside COMMAND... runs there.
-# Exit status 77: skipped, since root or debootstrap is not to be had.
+# own_namespaces SCRIPT starts SCRIPT anew, with mounts and processes of its own. After that, with ROOT set to a folder,
+# prepare makes a Debian in it, prepare_to_build one with Rust, and inside COMMAND... runs there. Exit status 77:
+# skipped, since root or debootstrap is not to be had.
 readonly PACKAGES=$CACHE/packages LOGS=$CACHE/logs-$SUITE
 # Where Rust lies within, be it mounted.
 readonly RUST=/opt/rust

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Sets up, builds and tests in another release of Debian, in a folder of its own. Called by "make test-debian13".
-# SUITE names the release, CACHE the folder in which it and its packages stay between runs, FRESH=1 makes it anew; STAGE: stages of make test,
-# separated by commas, or all of them.
-# Exit status 77: skipped, since root or debootstrap is not to be had.
+# Sets up, builds and tests in another release of Debian, in a folder of its own. Called by "make test-debian13". SUITE
+# names the release, CACHE the folder in which it and its packages stay between runs, FRESH=1 makes it anew; STAGE:
+# stages of make test, separated by commas, or all of them. Exit status 77: skipped, since root or debootstrap is not to
+# be had.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 

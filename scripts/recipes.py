@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Looks whether the recipes under packaging/ can be read: conda's by rattler-build's own parser, which is on PyPI (py-rattler-build), and Spack's for its
-syntax, as Spack itself is in no package registry. Versions and names of files are compared with the sources. Called by "make release-check"."""
+"""Looks whether the recipes under packaging/ can be read: conda's by rattler-build's own parser, which is on PyPI
+(py-rattler-build), and Spack's for its syntax, as Spack itself is in no package registry. Versions and names of files
+are compared with the sources. Called by "make release-check".
+"""
 import ast
 import re
 import sys
@@ -15,7 +17,8 @@ def conda():
     recipe = TOP / "packaging/conda/recipe.yaml"
     stage = rattler_build.Stage0Recipe.from_file(str(recipe))
     platform = rattler_build.PlatformConfig(target_platform="linux-64")
-    variants = rattler_build.VariantConfig({"c_compiler": ["gcc"], "rust_compiler": ["rust"], "c_stdlib": ["sysroot"], "python": ["3.12.* *_cpython"]})
+    variants = rattler_build.VariantConfig(
+        {"c_compiler": ["gcc"], "rust_compiler": ["rust"], "c_stdlib": ["sysroot"], "python": ["3.12.* *_cpython"]})
     outputs = [one.recipe.package.name for one in stage.render(variants, rattler_build.RenderConfig(platform=platform))]
     return f"{recipe.name}: {', '.join(map(str, outputs))}"
 
@@ -28,14 +31,17 @@ def spack():
     calls = {one.value.func.id for one in package.body if isinstance(one, ast.Expr) and isinstance(one.value, ast.Call)}
     wanted = {"license", "version", "depends_on"}
     if package.name != "PotentialParticles" or not wanted <= calls or not ast.get_docstring(package):
-        raise SystemExit(f"{recipe}: class {package.name} with {sorted(calls)}, where PotentialParticles with {sorted(wanted)} and a docstring is needed")
+        raise SystemExit(
+            f"{recipe}: class {package.name} with {sorted(calls)}, where PotentialParticles with {sorted(wanted)} and a docstring is needed"
+        )
     return f"{recipe.name}: {package.name}, syntax alone"
 
 
 def agree():
     """Version and number of the binary interface of the recipe are those of the sources."""
     recipe = (TOP / "packaging/conda/recipe.yaml").read_text()
-    for name, pattern, path in (("version", r'^version = "(.*)"', "Cargo.toml"), ("abi", r"^#define PP_ABI_VERSION (\d+)", "include/potential_particles.h")):
+    for name, pattern, path in (("version", r'^version = "(.*)"', "Cargo.toml"),
+                                ("abi", r"^#define PP_ABI_VERSION (\d+)", "include/potential_particles.h")):
         source = re.search(pattern, (TOP / path).read_text(), re.M).group(1)
         found = re.search(rf"^  {name}: (.*)$", recipe, re.M).group(1)
         if found != source:

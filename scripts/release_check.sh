@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
-# Before a release: versions, words, links, content of the crate, licences of dependencies (cargo-deny), changes of the Rust interface since the
-# last tag (cargo-semver-checks), recipes under packaging/ (py-rattler-build). A tool that is not installed is named and skipped.
-# FULL=1 adds what takes long: make test, Debian packages, the wheel. ADVISORIES=1 lets cargo-deny fetch the list of known weaknesses.
+# Before a release: versions, words, links, content of the crate, licences of dependencies (cargo-deny), changes of the
+# Rust interface since the last tag (cargo-semver-checks), recipes under packaging/ (py-rattler-build). A tool that is
+# not installed is named and skipped. FULL=1 adds what takes long: make test, Debian packages, the wheel. ADVISORIES=1
+# lets cargo-deny fetch the list of known weaknesses.
 set -uo pipefail
 cd "$(dirname "$0")/.." || exit 1
 
@@ -18,7 +19,8 @@ look() {
     fi
 }
 
-# The library alone: sources, licences, and the pages whose code is tested with it; what the sources include must be there.
+# The library alone: sources, licences, and the pages whose code is tested with it; what the sources include must be
+# there.
 crate() {
     local files
     files=$(cargo package --list --allow-dirty --offline) || return 1

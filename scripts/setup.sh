@@ -39,8 +39,8 @@ tested() {
     awk -v column="$1" '/^[0-9]/ { printf "%s%s", comma, $column; comma = ", " }' "$TABLE"
 }
 
-# What decides is whether the plugin fits the YADE that this system has, and that is found out after the build. Here only
-# what could not work anywhere is refused.
+# What decides is whether the plugin fits the YADE that this system has, and that is found out after the build. Here
+# only what could not work anywhere is refused.
 check_system() {
     local system=unknown
     # Debian, or what is made from it.

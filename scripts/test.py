@@ -4,9 +4,9 @@
 
     scripts/test.py [--plan test|all|check] [STAGE ...]
 
-A line for each stage as it ends, with its checks and seconds; of one that fails what failed, and the file of its whole output. The last line is
-"N passed, N failed". STAGE: only these, with what they need. VERBOSE=1: the whole output of every stage. JOBS=N: so many stages at once.
-Ctrl-C ends everything that was started.
+A line for each stage as it ends, with its checks and seconds; of one that fails what failed, and the file of its whole
+output. The last line is "N passed, N failed". STAGE: only these, with what they need. VERBOSE=1: the whole output of
+every stage. JOBS=N: so many stages at once. Ctrl-C ends everything that was started.
 """
 import argparse
 import ctypes
@@ -42,8 +42,10 @@ CARGO_TEST = ("cargo", "test", "--release", "--no-fail-fast", "--quiet")
 
 @dataclasses.dataclass
 class Stage:
-    """commands: run in turn. needs: stages that must have passed, if they are part of the run; after: that must have ended. suite: counts its own
-    checks, of which there must be some; else the stage is one check. plans: of which runs it is a part."""
+    """commands: run in turn. needs: stages that must have passed, if they are part of the run; after: that must have
+    ended. suite: counts its own checks, of which there must be some; else the stage is one check. plans: of which runs
+    it is a part.
+    """
 
     name: str
     title: str
@@ -64,56 +66,78 @@ def suite(name, title, *commands, **more):
 
 def glue(library):
     """How the plugin is built. (make glue would ask cargo for the library, and wait while cargo builds tests.)"""
-    return (("cmake", "-S", "yade-glue", "-B", "yade-glue/build", f"-DPP_LIBRARY={library}", f"-DPP_WERROR={os.environ.get('WERROR') or 0}"),
-            ("cmake", "--build", "yade-glue/build", "--parallel", str(jobs())))
+    return (("cmake", "-S", "yade-glue", "-B", "yade-glue/build", f"-DPP_LIBRARY={library}",
+             f"-DPP_WERROR={os.environ.get('WERROR') or 0}"), ("cmake", "--build", "yade-glue/build", "--parallel",
+                                                               str(jobs())))
 
 
 # In the order in which they start, the longest first; what others need stands at the top.
 STAGES = [
-    check("lint", "Formatting and warnings of Rust", (*MAKE, "lint"), plans=("test", "all") if os.environ.get("WERROR") == "1" else ()),
-    check("library", "Library, release build", ("scripts/library.sh",)),
-    suite("rust", "Rust tests, with the C header", (*CARGO_TEST, "--lib", "--tests"), (*CARGO_TEST, "--doc"), needs=("library",)),
-    check("yade-build", "YADE plugin, compared with this YADE", *glue(TARGET / "release" / "libpotential_particles.so"), needs=("library",)),
-    suite("yade", "YADE scenes", ("tests/yade/run.py",), needs=("yade-build",)),
-    check("lammps-build", "LAMMPS and its plugin", ("scripts/lammps_setup.sh",), needs=("library",)),
-    suite("examples", "Examples and studies, short", ("tests/examples/run.py",), needs=("yade-build",)),
-    suite("lammps", "LAMMPS scenes", ("tests/lammps/run.py",), needs=("lammps-build",)),
-    suite("ranks", "YADE on 1, 2 and 3 ranks", ("tests/mpi/run.py",), needs=("yade-build",)),
+    check("lint", "Formatting and warnings of Rust", (*MAKE, "lint"),
+          plans=("test", "all") if os.environ.get("WERROR") == "1" else ()),
+    check("library", "Library, release build", ("scripts/library.sh", )),
+    suite("rust", "Rust tests, with the C header", (*CARGO_TEST, "--lib", "--tests"), (*CARGO_TEST, "--doc"),
+          needs=("library", )),
+    check("yade-build", "YADE plugin, compared with this YADE", *glue(TARGET / "release" / "libpotential_particles.so"),
+          needs=("library", )),
+    suite("yade", "YADE scenes", ("tests/yade/run.py", ), needs=("yade-build", )),
+    check("lammps-build", "LAMMPS and its plugin", ("scripts/lammps_setup.sh", ), needs=("library", )),
+    suite("examples", "Examples and studies, short", ("tests/examples/run.py", ), needs=("yade-build", )),
+    suite("lammps", "LAMMPS scenes", ("tests/lammps/run.py", ), needs=("lammps-build", )),
+    suite("ranks", "YADE on 1, 2 and 3 ranks", ("tests/mpi/run.py", ), needs=("yade-build", )),
     suite("wheel", "Wheel for Python, in an environment of its own",
-          ("env", "QUICK=1", f"OUTPUT={TARGET / 'wheel'}", "scripts/wheel.sh"), needs=("yade-build",), after=("rust",)),
-    suite("blocks", "Code blocks of the guide", ("tests/guide/run.py",), needs=("yade-build",)),
-    check("install", "Library installed, moved, linked and removed", ("env", "PROFILE=dev", "scripts/try_install.sh"), after=("library",)),
-    suite("c", "C harness and examples, header as C++", (*MAKE, "-C", "tests/c", "run", "complete", "cxx", "examples"), needs=("library",)),
-    suite("guide", "Guide as a site, and its links", ("scripts/guide.sh", str(GUIDE)), ("tests/guide/links.py", str(GUIDE)), needs=("yade-build",)),
-    suite("words", "Words, sentences and constants of the guide; versions; judges of make peers", ("tests/guide/words.py",), ("tests/guide/sentences.py",),
-          ("tests/guide/constants.py",), ("scripts/versions.py",),
-          ("/usr/bin/python3", "benches/peers/test_answers.py"), ("/usr/bin/python3", "benches/peers/test_roofline.py")),
+          ("env", "QUICK=1", f"OUTPUT={TARGET / 'wheel'}", "scripts/wheel.sh"), needs=("yade-build", ),
+          after=("rust", )),
+    suite("blocks", "Code blocks of the guide", ("tests/guide/run.py", ), needs=("yade-build", )),
+    check("install", "Library installed, moved, linked and removed", ("env", "PROFILE=dev", "scripts/try_install.sh"),
+          after=("library", )),
+    suite("c", "C harness and examples, header as C++", (*MAKE, "-C", "tests/c", "run", "complete", "cxx", "examples"),
+          needs=("library", )),
+    suite("guide", "Guide as a site, and its links", ("scripts/guide.sh", str(GUIDE)),
+          ("tests/guide/links.py", str(GUIDE)), needs=("yade-build", )),
+    suite("words", "Words, sentences and constants of the guide; versions; judges of make peers",
+          ("tests/guide/words.py", ), ("tests/guide/sentences.py", ), ("tests/guide/constants.py", ),
+          ("scripts/versions.py", ), ("/usr/bin/python3", "benches/peers/test_answers.py"),
+          ("/usr/bin/python3", "benches/peers/test_roofline.py")),
     # What takes long and says little to a user.
     # In a folder of its own: cargo gives the library of other features the same name.
     suite("features", "Rust tests without cone programs",
-          ("cargo", "test", "--quiet", "--target-dir", str(TARGET / "features"), "--no-default-features", "--features", "capi", "--test",
-           "cone_program_feature"), needs=("library",), plans=("all",)),
-    suite("rust-long", "Fuzz targets, ten times as long", ("env", "PP_LONG=1", *CARGO_TEST, "--test", "fuzz_replay"), needs=("rust",), plans=("all",)),
-    suite("yade-long", "YADE scenes that take long; all with 2 threads", ("tests/yade/run.py", "--long"), needs=("yade-build",), plans=("all",)),
-    suite("examples-long", "Examples and studies that take long", ("tests/examples/run.py", "--long"), needs=("yade-build",), plans=("all",)),
-    suite("kept", "YADE killed and loaded, shaken, started often", ("tests/yade/long/run.py", "--short"), needs=("yade-build",), plans=("all",)),
-    suite("lammps-long", "LAMMPS scenes, all of them", ("tests/lammps/run.py", "--all"), needs=("lammps-build",), plans=("all",)),
-    suite("ranks-long", "YADE on ranks, long", ("tests/mpi/run.py", "--long"), needs=("yade-build",), plans=("all",)),
-    check("asan", "C harness under AddressSanitizer and UBSan", (*MAKE, "-C", "tests/c", "asan"), needs=("library",), plans=("all",)),
-    check("valgrind", "C harness under valgrind", (*MAKE, "-C", "tests/c", "valgrind"), needs=("c",), plans=("all",)),
-    check("tsan", "Threads under ThreadSanitizer and helgrind", (*MAKE, "-C", "tests/c", "tsan", "helgrind"), needs=("c",), plans=("all",)),
+          ("cargo", "test", "--quiet", "--target-dir", str(
+              TARGET / "features"), "--no-default-features", "--features", "capi", "--test", "cone_program_feature"),
+          needs=("library", ), plans=("all", )),
+    suite("rust-long", "Fuzz targets, ten times as long", ("env", "PP_LONG=1", *CARGO_TEST, "--test", "fuzz_replay"),
+          needs=("rust", ), plans=("all", )),
+    suite("yade-long", "YADE scenes that take long; all with 2 threads", ("tests/yade/run.py", "--long"),
+          needs=("yade-build", ), plans=("all", )),
+    suite("examples-long", "Examples and studies that take long", ("tests/examples/run.py", "--long"),
+          needs=("yade-build", ), plans=("all", )),
+    suite("kept", "YADE killed and loaded, shaken, started often", ("tests/yade/long/run.py", "--short"),
+          needs=("yade-build", ), plans=("all", )),
+    suite("lammps-long", "LAMMPS scenes, all of them", ("tests/lammps/run.py", "--all"), needs=("lammps-build", ),
+          plans=("all", )),
+    suite("ranks-long", "YADE on ranks, long", ("tests/mpi/run.py", "--long"), needs=("yade-build", ), plans=("all", )),
+    check("asan", "C harness under AddressSanitizer and UBSan", (*MAKE, "-C", "tests/c", "asan"), needs=("library", ),
+          plans=("all", )),
+    check("valgrind", "C harness under valgrind", (*MAKE, "-C", "tests/c", "valgrind"), needs=("c", ), plans=("all", )),
+    check("tsan", "Threads under ThreadSanitizer and helgrind", (*MAKE, "-C", "tests/c", "tsan", "helgrind"),
+          needs=("c", ), plans=("all", )),
 ]
 
 # Before a commit, by the build that is the fastest after a change; what is not installed is left out.
 CHECK = [
     check("format", "Formatting of Rust", ("cargo", "fmt", "--check")),
-    suite("constants", "Words of the guide, constants of the theory, versions", ("tests/guide/words.py",), ("tests/guide/constants.py",), ("scripts/versions.py",)),
-    check("library", "Library, quick build", ("cargo", "build", "--profile", "quick", "--lib", "--example", "solve_pairs", "--quiet")),
-    suite("rust", "Rust tests, with the C header",
-          ("cargo", "test", "--profile", "quick", "--no-fail-fast", "--lib", "--tests", "--", "--skip", "stress::", "--skip", "fuzz_replay::"), needs=("library",)),
-    suite("c", "C harness", (*MAKE, "-C", "tests/c", "run", "PROFILE=quick"), needs=("library",)),
-    check("yade-build", "YADE plugin, compared with this YADE", *glue(TARGET / "quick" / "libpotential_particles.so"), needs=("library",)),
-    suite("yade", "YADE: particles with particles, spheres, boxes, walls and facets", ("tests/yade/run.py", "mixed"), needs=("yade-build",)),
+    suite("constants", "Words of the guide, constants of the theory, versions", ("tests/guide/words.py", ),
+          ("tests/guide/constants.py", ), ("scripts/versions.py", )),
+    check("library", "Library, quick build",
+          ("cargo", "build", "--profile", "quick", "--lib", "--example", "solve_pairs", "--quiet")),
+    suite("rust", "Rust tests, with the C header", ("cargo", "test", "--profile", "quick", "--no-fail-fast", "--lib",
+                                                    "--tests", "--", "--skip", "stress::", "--skip", "fuzz_replay::"),
+          needs=("library", )),
+    suite("c", "C harness", (*MAKE, "-C", "tests/c", "run", "PROFILE=quick"), needs=("library", )),
+    check("yade-build", "YADE plugin, compared with this YADE", *glue(TARGET / "quick" / "libpotential_particles.so"),
+          needs=("library", )),
+    suite("yade", "YADE: particles with particles, spheres, boxes, walls and facets", ("tests/yade/run.py", "mixed"),
+          needs=("yade-build", )),
 ]
 
 
@@ -135,10 +159,15 @@ class Run:
         command = next(self.commands, None)
         if command is None or self.status:
             return self._end()
-        # In a session of its own: Ctrl-C is for this script, which then ends what it started. Not the job server of the make above.
-        environment = {key: value for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-        self.process = subprocess.Popen(command, cwd=TOP, env={**environment, "CARGO_TARGET_DIR": str(TARGET)}, start_new_session=True,
-                                        stdin=subprocess.DEVNULL, stdout=self.output, stderr=subprocess.STDOUT)
+        # In a session of its own: Ctrl-C is for this script, which then ends what it started. Not the job server of the
+        # make above.
+        environment = {
+            key: value
+            for key, value in os.environ.items() if key not in ("MAKEFLAGS", "MFLAGS", "MAKELEVEL")
+        }
+        self.process = subprocess.Popen(command, cwd=TOP, env={**environment, "CARGO_TARGET_DIR": str(TARGET)},
+                                        start_new_session=True, stdin=subprocess.DEVNULL, stdout=self.output,
+                                        stderr=subprocess.STDOUT)
 
     def look(self):
         """Goes on with what has ended; whether the stage is over."""
@@ -174,9 +203,13 @@ class Run:
         for start, following in zip(starts, [*starts[1:], len(lines)]):
             if lines[start].startswith("Traceback"):
                 # Its end names the error: the first line that is not indented.
-                end = next((number for number in range(start + 1, len(lines)) if not lines[number].startswith(" ")), len(lines) - 1)
+                end = next((number for number in range(start + 1, len(lines)) if not lines[number].startswith(" ")),
+                           len(lines) - 1)
                 start = max(start, end - 5)
-            kept += [line[:400] for line in lines[start:min(following, start + 10)] if line.strip() and not re.match(r"ok |test .* ok$", line)]
+            kept += [
+                line[:400] for line in lines[start:min(following, start + 10)]
+                if line.strip() and not re.match(r"ok |test .* ok$", line)
+            ]
         kept = kept or lines[-10:]
         more = [f"... {len(kept) - LINES} lines more"] if len(kept) > LINES else []
         return [*kept[:LINES], *more, f"exit status {self.status}; the whole output: {os.path.relpath(self.log)}"]
@@ -188,7 +221,8 @@ def descendants(of):
     for entry in Path("/proc").iterdir():
         if entry.name.isdigit():
             try:
-                children.setdefault(int((entry / "stat").read_text().rpartition(")")[2].split()[1]), []).append(int(entry.name))
+                children.setdefault(int((entry / "stat").read_text().rpartition(")")[2].split()[1]),
+                                    []).append(int(entry.name))
             except (OSError, IndexError):
                 continue
     found, new = [], [of]
@@ -216,7 +250,9 @@ class Board:
         self.runs, self.width, self.live = runs, max(len(run.stage.title) for run in runs), sys.stdout.isatty()
 
     def now(self):
-        running = [f"{run.stage.name} {time.monotonic() - run.begin:.0f} s" for run in self.runs if run.state == "running"]
+        running = [
+            f"{run.stage.name} {time.monotonic() - run.begin:.0f} s" for run in self.runs if run.state == "running"
+        ]
         over = sum(run.state not in ("waiting", "running") for run in self.runs)
         return f"{over} of {len(self.runs)}" + (f"; now {', '.join(running)}" if running else "")
 
@@ -226,9 +262,13 @@ class Board:
             print(f"\r\x1b[K  {self.now()}"[: columns + 3], end="", flush=True)
 
     def ended(self, run):
-        word, counts = {"passed": ("ok  ", ""), "failed": ("FAIL", ""), "left out": ("--  ", "not run: what it needs failed")}[run.state]
+        word, counts = {
+            "passed": ("ok  ", ""), "failed": ("FAIL", ""), "left out": ("--  ", "not run: what it needs failed")
+        }[run.state]
         counts = counts or f"{run.passed:7,} passed {run.failed:3,} failed {run.seconds:5.0f} s"
-        print("\r\x1b[K" * self.live + f"{word} {run.stage.title:{self.width}} {counts}" + ("" if self.live else f"   ({self.now()})"), flush=True)
+        print(
+            "\r\x1b[K" * self.live + f"{word} {run.stage.title:{self.width}} {counts}" +
+            ("" if self.live else f"   ({self.now()})"), flush=True)
         if os.environ.get("VERBOSE") == "1":
             print(run.text() if run.state != "left out" else "", flush=True)
         elif run.state == "failed":
@@ -239,7 +279,11 @@ def chosen(plan, names):
     """The stages of a run, in their order."""
     stages = CHECK if plan == "check" else [stage for stage in STAGES if plan in stage.plans]
     if plan == "check":
-        lacking = {name for name, program in (("format", "cargo-fmt"), ("yade", "yade"), ("yade-build", "yade")) if not shutil.which(program)}
+        lacking = {
+            name
+            for name, program in (("format", "cargo-fmt"), ("yade", "yade"), ("yade-build", "yade"))
+            if not shutil.which(program)
+        }
         if "yade" in lacking:
             print("YADE is not installed: its plugin is not tried (make setup installs it)")
         stages = [stage for stage in stages if stage.name not in lacking]
@@ -262,7 +306,8 @@ def ready(run, runs):
     if any(other.state in ("failed", "left out") for other in needed):
         return None
     before = [other for other in runs if other.stage.name in run.stage.after]
-    return all(other.state == "passed" for other in needed) and all(other.state not in ("waiting", "running") for other in before)
+    return all(other.state == "passed" for other in needed) and all(other.state not in ("waiting", "running")
+                                                                    for other in before)
 
 
 def go(runs, board):
@@ -273,7 +318,8 @@ def go(runs, board):
             elif run.state == "waiting" and ready(run, runs) is None:
                 run.state = "left out"
                 board.ended(run)
-            elif run.state == "waiting" and sum(other.state == "running" for other in runs) < jobs() and ready(run, runs):
+            elif run.state == "waiting" and sum(other.state == "running"
+                                                for other in runs) < jobs() and ready(run, runs):
                 run.start()
         board.show()
         time.sleep(0.1)
@@ -281,7 +327,8 @@ def go(runs, board):
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    arguments.add_argument("--plan", choices=("test", "all", "check"), default="test", help="all: those that take long, too; check: a minute's worth")
+    arguments.add_argument("--plan", choices=("test", "all", "check"), default="test",
+                           help="all: those that take long, too; check: a minute's worth")
     arguments.add_argument("stages", nargs="*", metavar="STAGE", help="only these, with what they need")
     options = arguments.parse_args()
     runs = [Run(stage) for stage in chosen(options.plan, options.stages)]
@@ -298,7 +345,8 @@ def main():
         print("\ninterrupted: all that was started has been ended", flush=True)
         sys.exit(130)
     passed, failed = sum(run.passed for run in runs), sum(run.failed for run in runs)
-    print("\r\x1b[K" * board.live + f"\n{jobs()} at once, {time.monotonic() - begin:.0f} s\n{passed} passed, {failed} failed")
+    print("\r\x1b[K" * board.live
+          + f"\n{jobs()} at once, {time.monotonic() - begin:.0f} s\n{passed} passed, {failed} failed")
     sys.exit(1 if failed else 0)
 
 

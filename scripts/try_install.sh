@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Installs the library from a checkout whose path has a space and an umlaut, moves what was installed, builds an example with it by pkg-config, by pkg-config
-# statically, and by CMake with both targets, and uninstalls it. Needs cargo, a C compiler, pkg-config and CMake; CARGO_TARGET_DIR may hold an earlier build.
+# Installs the library from a checkout whose path has a space and an umlaut, moves what was installed, builds an example
+# with it by pkg-config, by pkg-config statically, and by CMake with both targets, and uninstalls it. Needs cargo, a C
+# compiler, pkg-config and CMake; CARGO_TARGET_DIR may hold an earlier build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# In a Debian that has nothing: installs the packages beside this script, uses them from YADE, from C and from CMake, and removes them.
-# Called by packages.sh. The last line is "N passed, N failed".
+# In a Debian that has nothing: installs the packages beside this script, uses them from YADE, from C and from CMake,
+# and removes them. Called by packages.sh. The last line is "N passed, N failed".
 set -uo pipefail
 HERE=$(cd "$(dirname "$0")" && pwd)
 EXAMPLES=/usr/share/doc/python3-yade-potential-particles/examples

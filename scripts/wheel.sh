@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
-# Builds the wheel, the library for Python without YADE, into out/wheel, and tries it in a virtual environment that has nothing else but numpy: its
-# tests, the blocks of docs/wheel.md, and what Python adds to the time of C (summary.json). With QUICK=1 it is built for this system alone, and
-# no time is measured. maturin and ziglang, a linker for systems with an older C library than this one, come from PyPI
-# into a virtual environment of their own. Called by "make wheel" and "make test".
+# Builds the wheel, the library for Python without YADE, into out/wheel, and tries it in a virtual environment that has
+# nothing else but numpy: its tests, the blocks of docs/wheel.md, and what Python adds to the time of C (summary.json).
+# With QUICK=1 it is built for this system alone, and no time is measured. maturin and ziglang, a linker for systems
+# with an older C library than this one, come from PyPI into a virtual environment of their own. Called by "make wheel"
+# and "make test".
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
@@ -49,7 +50,8 @@ from_pypi "$TRIED" "$OUT"/*.whl
 # From elsewhere, so that nothing of the sources is found by its place.
 (cd "$TRIED" && bin/python "$OLDPWD/python/tests/run.py")
 
-# Beside the plugin for YADE, where that is built, with either of them first on the path: without the numpy of the environment above.
+# Beside the plugin for YADE, where that is built, with either of them first on the path: without the numpy of the
+# environment above.
 PLUGIN=yade-glue/build/python
 if command -v yade >/dev/null && [ -d "$PLUGIN/potential_particles" ]; then
     rm -rf "$TRIED/alone"

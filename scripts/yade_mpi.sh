@@ -16,8 +16,8 @@ fi
 # A rank's own standard output is never the terminal, even where mpirun makes it look like one.
 if [ -t 1 ]; then export PP_TERMINAL=1; else export PP_TERMINAL=0; fi
 
-# A session of its own: mpirun would answer the terminal's Ctrl-C by ending all ranks at once, where it passes this signal on.
-# More ranks than cores are allowed, and none is bound to a core, since rank 0 has little to do.
+# A session of its own: mpirun would answer the terminal's Ctrl-C by ending all ranks at once, where it passes this
+# signal on. More ranks than cores are allowed, and none is bound to a core, since rank 0 has little to do.
 setsid mpirun --allow-run-as-root --map-by :OVERSUBSCRIBE --bind-to none -np "$ranks" \
     "$(dirname "$0")/yade.sh" "$@" </dev/null &
 job=$!

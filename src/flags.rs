@@ -56,10 +56,11 @@ impl Flags {
     pub const NORMAL_BY_CENTRES: Self = Self(4);
     /// Started from memory.
     pub const WARM: Self = Self(8);
-    /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked for.
+    /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked
+    /// for.
     pub const EXTENDED: Self = Self(16);
-    /// Carried on without a solution from its planes ([`crate::Settings::carry_tolerance`]): from the last contact, or, with [`Self::REJECTED`],
-    /// from where the pair was last solved apart.
+    /// Carried on without a solution from its planes ([`crate::Settings::carry_tolerance`]): from the last contact, or,
+    /// with [`Self::REJECTED`], from where the pair was last solved apart.
     pub const CARRIED: Self = Self(32);
     /// The gap exceeds the tolerance, because rounding allows no better.
     pub const ROUNDING_LIMITED: Self = Self(64);
@@ -70,14 +71,14 @@ impl Flags {
     pub const BY_FACE: Self = Self(256);
     /// Rejected: what separated the pair at the last call still does.
     pub const BY_MEMORY: Self = Self(512);
-    /// [`crate::Settings::flat_regularisation`] was raised, and its default value was used in this call instead: the raised one
-    /// would have left open whether the particles overlap.
+    /// [`crate::Settings::flat_regularisation`] was raised, and its default value was used in this call instead: the
+    /// raised one would have left open whether the particles overlap.
     pub const DEFAULT_REGULARISATION: Self = Self(1024);
     /// The gradient vanishes on a flat boundary, as when the centre lies on it: the normal is the boundary's own.
     pub const NORMAL_BY_BOUNDARY: Self = Self(2048);
 
-    /// Closest: both points are free to move along flat faces (k = 0), so that the overlap |P1 − P2| has a part along these, up to what the faces have in
-    /// common. It is the answer by definition, yet no depth: midway's overlap is.
+    /// Closest: both points are free to move along flat faces (k = 0), so that the overlap |P1 − P2| has a part along
+    /// these, up to what the faces have in common. It is the answer by definition, yet no depth: midway's overlap is.
     pub const FREE: Self = Self(4096);
 
     /// Every flag with its name, in the order of the bits.

@@ -7,9 +7,9 @@
 //! ```
 //!
 //! S is convex, once continuously differentiable and piecewise quadratic. The contact of two particles is the solution
-//! of a convex program in S_A and S_B ([`Formulation`]), found here by an active-set Newton method with a bound
-//! on its error (proved in extended precision, estimated in doubles: docs/theory.md). Data flows one way, and the folders are read in that order
-//! (`tests/folders.rs`):
+//! of a convex program in S_A and S_B ([`Formulation`]), found here by an active-set Newton method with a bound on its
+//! error (proved in extended precision, estimated in doubles: docs/theory.md). Data flows one way, and the folders are
+//! read in that order (`tests/folders.rs`):
 //!
 //! | folder | holds |
 //! |---|---|
@@ -20,7 +20,7 @@
 //! | `model` | both potentials as quadratics at a point, their exact optimum along the dual path, the KKT check |
 //! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
 //! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
-//! | `contact` | point, normal and overlap from a solution; [`detect`](detect()), the whole on one screen; many pairs at once |
+//! | `contact` | point, normal and overlap from a solution; [`detect`](detect()); many pairs at once |
 //! | `section` | the contact area |
 //! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
 //! | [`planar`] | particles of the plane and their contacts |
@@ -36,16 +36,18 @@
 //!
 //! # Use
 //!
-//! A [`Particle`] is made once for each shape; a body is a particle at a [`Pose`]. [`detect()`] finds the [`Contact`] of two
-//! bodies, [`detect_batch`] those of many pairs on several threads; [`Settings`] choose the formulation and the accuracy, and
-//! a [`PairState`] for each pair lets the next call start from the last solution. [`Section::area`] gives the contact area,
-//! [`closest_point`] one closest point alone, [`contact_with_plane`] and [`contact_with_triangle`] the contact with a wall, [`Particle::mass_properties`] volume and inertia.
+//! A [`Particle`] is made once for each shape; a body is a particle at a [`Pose`]. [`detect()`] finds the [`Contact`]
+//! of two bodies, [`detect_batch`] those of many pairs on several threads; [`Settings`] choose the formulation and the
+//! accuracy, and a [`PairState`] for each pair lets the next call start from the last solution. [`Section::area`] gives
+//! the contact area, [`closest_point`] one closest point alone, [`contact_with_plane`] and [`contact_with_triangle`]
+//! the contact with a wall, [`Particle::mass_properties`] volume and inertia.
 //!
 //! ```
 //! use potential_particles::{Kind, PairState, Particle, Plane, Pose, Section, Settings, detect};
 //!
 //! // A cube of edge 2 with edges and corners rounded by r = 0.1: six planes at 0.9, moved out by r.
-//! let faces = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
+//! let faces =
+//!     [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, 1.0], [0.0, 0.0, -1.0]];
 //! let cube = Particle::new(&faces.map(|[a, b, c]| Plane::from([a, b, c, 0.9])), 0.1, 0.0, 1.0)?;
 //!
 //! let lower = Pose::at([0.0, 0.0, 0.0])?;

@@ -37,8 +37,8 @@ const ORTHONORMAL: f64 = 1e-6;
 #[repr(C)]
 pub struct Pose {
     position: Vector3<f64>,
-    /// A quaternion of any length; or, where its w is infinite, as that of no pose is, an angle about z in place of x. The extended tier
-    /// takes its own digits of the rotation from it.
+    /// A quaternion of any length; or, where its w is infinite, as that of no pose is, an angle about z in place of x.
+    /// The extended tier takes its own digits of the rotation from it.
     turn: [f64; 4],
     rotation: Matrix3<f64>,
 }
@@ -97,8 +97,9 @@ impl Pose {
         Self::new(position, [1.0, 0.0, 0.0, 0.0])
     }
 
-    /// From a rotation matrix, local to world. One that is orthonormal to rounding is kept as it is, and extended precision takes the
-    /// quaternion nearest to it, a few ε away; of any other, the pose is that of the nearest quaternion.
+    /// From a rotation matrix, local to world. One that is orthonormal to rounding is kept as it is, and extended
+    /// precision takes the quaternion nearest to it, a few ε away; of any other, the pose is that of the nearest
+    /// quaternion.
     ///
     /// # Errors
     /// A position that is not finite, or a matrix that is no rotation to six digits.

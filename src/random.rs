@@ -1,4 +1,5 @@
-//! Random numbers: a stream of its own for each body of a packing, so that no result depends on which thread drew first.
+//! Random numbers: a stream of its own for each body of a packing, so that no result depends on which thread drew
+//! first.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use rand_pcg::Pcg64;

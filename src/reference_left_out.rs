@@ -1,7 +1,8 @@
-//! In place of `reference` in a build without the Cargo feature `cone-program`: the same functions, none of which has an answer.
+//! In place of `reference` in a build without the Cargo feature `cone-program`: the same functions, none of which has
+//! an answer.
 //!
-//! [`crate::Settings::validate`] refuses the cone-program back end by name before any of this is reached; what remains is the last
-//! resort of the fast solver.
+//! [`crate::Settings::validate`] refuses the cone-program back end by name before any of this is reached; what remains
+//! is the last resort of the fast solver.
 
 use crate::pair::pair::Pair;
 pub use crate::pair::role::Role;

@@ -1,9 +1,9 @@
-//! What can be written down and read back with serde: particles, planes, poses, settings, states of pairs and contacts. Other answers derive it
-//! field by field.
+//! What can be written down and read back with serde: particles, planes, poses, settings, states of pairs and contacts.
+//! Other answers derive it field by field.
 //!
 //! Each type passes through a plain twin of its own, and reading goes through the checks of the constructor, so that no
-//! file makes a particle, a pose or settings that the program could not. Numbers that do not apply (NaN) are written as nothing, since
-//! JSON has no NaN; an infinite number is lost in JSON in the same way.
+//! file makes a particle, a pose or settings that the program could not. Numbers that do not apply (NaN) are written as
+//! nothing, since JSON has no NaN; an infinite number is lost in JSON in the same way.
 
 use crate::{BackEnd, Formulation, PairState, Particle, Plane, Pose, Settings};
 use serde::de::Error;

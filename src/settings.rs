@@ -74,28 +74,30 @@ pub struct Settings {
     pub solve_separated: bool,
     /// Relative gap of s² at which the solver may stop, in (0, 0.1].
     ///
-    /// 1e-12 lies a decade above what rounding leaves for well-conditioned pairs; the solver
-    /// is a Newton method, so that its last step usually lands far below it anyway. Where rounding of doubles leaves more, the
-    /// answer is flagged [`crate::Flags::ROUNDING_LIMITED`]. Below 1e-13 the solver goes on in extended precision (some 10 µs)
+    /// 1e-12 lies a decade above what rounding leaves for well-conditioned pairs; the solver is a Newton method, so
+    /// that its last step usually lands far below it anyway. Where rounding of doubles leaves more, the answer is
+    /// flagged [`crate::Flags::ROUNDING_LIMITED`]. Below 1e-13 the solver goes on in extended precision (some 10 µs)
     /// until the gap is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
     pub gap_tolerance: f64,
     /// Weight of the point on A in the contact point of [`Formulation::Closest`], in [0, 1].
     pub weight_on_a: f64,
-    /// Sphericity below which the position on a flat face is regularised, in [0, 0.1]; less than the default of 1e-13 counts as that.
+    /// Sphericity below which the position on a flat face is regularised, in [0, 0.1]; less than the default of 1e-13
+    /// counts as that.
     ///
-    /// With k below this value the minimiser is chosen as if k were this value (about a sphere of
-    /// the bounding radius); s, overlap and normal stay those of the given k within the gap, which
-    /// grows by at most this value. 1e-13 is the smallest value whose pull on a flat face of unit
-    /// size still exceeds rounding; for exactly parallel faces any value gives the limit
-    /// k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the particles overlap at all,
-    /// the default value decides, and its contact is the answer ([`crate::Flags::DEFAULT_REGULARISATION`]).
+    /// With k below this value the minimiser is chosen as if k were this value (about a sphere of the bounding radius);
+    /// s, overlap and normal stay those of the given k within the gap, which grows by at most this value. 1e-13 is the
+    /// smallest value whose pull on a flat face of unit size still exceeds rounding; for exactly parallel faces any
+    /// value gives the limit k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the
+    /// particles overlap at all, the default value decides, and its contact is the answer
+    /// ([`crate::Flags::DEFAULT_REGULARISATION`]).
     pub flat_regularisation: f64,
-    /// A contact is carried on only where its point is known to this part of the smaller bounding radius, in [0, 0.1]; 0: every contact is solved.
+    /// A contact is carried on only where its point is known to this part of the smaller bounding radius, in [0, 0.1];
+    /// 0: every contact is solved.
     ///
-    /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`] follows from the
-    /// last one without a solution from its planes ([`crate::Flags::CARRIED`]) where no plane can have switched and its point is known so well.
-    /// A pair that is apart is carried on in the same way, as long as s is surely above 1.
-    /// Its gap and `point_bound` hold as for any other.
+    /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`]
+    /// follows from the last one without a solution from its planes ([`crate::Flags::CARRIED`]) where no plane can have
+    /// switched and its point is known so well. A pair that is apart is carried on in the same way, as long as s is
+    /// surely above 1. Its gap and `point_bound` hold as for any other.
     pub carry_tolerance: f64,
 }
 
@@ -173,8 +175,8 @@ with!(
 );
 
 impl Settings {
-    /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the gap
-    /// than is asked for. A raised one is a choice that stays.
+    /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the
+    /// gap than is asked for. A raised one is a choice that stays.
     pub(crate) fn least_sphericity(&self) -> f64 {
         let precise = self.gap_tolerance < LEAST_OF_DOUBLES;
         if precise && !self.raises_regularisation() {

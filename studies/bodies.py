@@ -14,8 +14,8 @@ REACH_TOLERANCE = 1e-4  # of the bounding radius
 def shape_of_planes(normals, offsets, r, k, R, name):
     """The Shape with these planes n_i.x <= d_i, whose centroid and principal axes must be those of its frame.
 
-    The builders of potential_particles.shapes are given faces, and find planes and frame; comparisons with closed forms and
-    with YADE's own functor give the planes themselves.
+    The builders of potential_particles.shapes are given faces, and find planes and frame; comparisons with closed forms
+    and with YADE's own functor give the planes themselves.
     """
     planes = tuple((*map(float, normal), float(offset)) for normal, offset in zip(normals, offsets))
     particle = ConicPotentialParticle(planes=list(planes), r=r, k=k, R=R)

@@ -3,9 +3,10 @@
 
     scripts/yade_mpi.sh 3 -j1 studies/mpi_pile.py
 
-Rank 0 holds floor and walls, the other ranks divide the pyramids; with one rank it is a serial run. Environment: STEPS (6000),
-BODIES (1000), FRAMES (10, files for ParaView), RESUME (1: go on from the last saved scene). Results go to out/mpi: pile.png,
-pile.bodies.pvd and pile.contacts.pvd with their .vtp files, summary.json, and pile.yade.gz, saved four times on the way. SI units; z up, floor at z = 0.
+Rank 0 holds floor and walls, the other ranks divide the pyramids; with one rank it is a serial run. Environment: STEPS
+(6000), BODIES (1000), FRAMES (10, files for ParaView), RESUME (1: go on from the last saved scene). Results go to
+out/mpi: pile.png, pile.bodies.pvd and pile.contacts.pvd with their .vtp files, summary.json, and pile.yade.gz, saved
+four times on the way. SI units; z up, floor at z = 0.
 """
 
 import os
@@ -87,7 +88,8 @@ def start(pile, out, resume):
             raise SystemExit(f"There is no {out / SCENE} to resume: run once without RESUME.")
         mpi.load(out / SCENE)
         if len(O.bodies) < pile.ids[-1] + 1 or O.bodies[pile.ids[-1]] is None:
-            raise SystemExit(f"{out / SCENE} holds another number of pyramids than {pile.count:,}: set BODIES as in that run.")
+            raise SystemExit(
+                f"{out / SCENE} holds another number of pyramids than {pile.count:,}: set BODIES as in that run.")
     else:
         for old in [*out.glob("pile.*"), *out.glob("summary.json")]:
             old.unlink()

@@ -113,13 +113,18 @@ def _print(out, result):
     shares = ", ".join(f"{count:,}" for count in result["bodies_of_ranks"][1:]) or "all on one"
     rows = [
         ("bodies", f"{result['bodies']:,} pyramids; of the workers: {shares}"),
-        ("steps", f"{result['steps']:,} of {result['steps_asked_for']:,}" + (" (interrupted)" if result["interrupted"] else "")),
-        ("time", f"{result['stepping_seconds']:.1f} s stepping, {rate:,.0f} steps/s; {result['total_seconds']:.1f} s in all"),
-        ("contacts", f"{result['contacts']:,}; the functors were asked {counters['calls']:,} times and solved {counters['solved']:,} pairs"),
+        ("steps", f"{result['steps']:,} of {result['steps_asked_for']:,}" +
+         (" (interrupted)" if result["interrupted"] else "")),
+        ("time",
+         f"{result['stepping_seconds']:.1f} s stepping, {rate:,.0f} steps/s; {result['total_seconds']:.1f} s in all"),
+        ("contacts",
+         f"{result['contacts']:,}; the functors were asked {counters['calls']:,} times and solved {counters['solved']:,} pairs"
+         ),
         ("mean height", f"{result['mean_height_m']:.4f} m"),
         ("kinetic energy", f"{result['kinetic_energy_J']:.2e} J"),
         ("box carries", f"{result['support_over_weight']:.2%} of the weight"),
-        *[(row["name"], f"{row['measured']:.4g}, {row['sense']} {row['target']:g}: {'met' if row['met'] else 'MISSED'}") for row in result["targets"]],
+        *[(row["name"], f"{row['measured']:.4g}, {row['sense']} {row['target']:g}: {'met' if row['met'] else 'MISSED'}")
+          for row in result["targets"]],
         ("versions", ", ".join(f"{name} {version}" for name, version in result["versions"].items())),
         ("machine", result["machine"]),
         ("results", f"{out}: pile.png, pile.bodies.pvd (ParaView), summary.json, pile.yade.gz"),

@@ -14,7 +14,9 @@ DOTS_PER_INCH = 150
 
 
 def save_panels(path, states, ground, view, title, note):
-    """states: list of (caption, Triangles of the bodies); ground: half the width of the floor at z = 0, m; writes a PNG."""
+    """states: list of (caption, Triangles of the bodies); ground: half the width of the floor at z = 0, m; writes a
+    PNG.
+    """
     width, height = PANEL_PIXELS
     inches = (len(states) * width / DOTS_PER_INCH, (height + 150) / DOTS_PER_INCH)
     figure, axes = plt.subplots(1, len(states), figsize=inches, dpi=DOTS_PER_INCH, squeeze=False)

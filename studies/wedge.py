@@ -5,9 +5,10 @@ Simulation B of Boon, Houlsby & Utili, against the closed form. Run it inside YA
 
     yade -x -n -j1 studies/wedge.py
 
-Environment: CASES (all, or short), OUTPUT (out/wedge), LAW (point, or joint: contact patches, without what is shown of points). Results: a table on the terminal; wedge.png, study.png,
-wedge.bodies.pvd and wedge.contacts.pvd with their .vtp files for ParaView, trials.csv with each friction angle that was tried, and
-summary.json. SI units, angles in degrees; world frame with x east, y north, z up.
+Environment: CASES (all, or short), OUTPUT (out/wedge), LAW (point, or joint: contact patches, without what is shown of
+points). Results: a table on the terminal; wedge.png, study.png, wedge.bodies.pvd and wedge.contacts.pvd with their .vtp
+files for ParaView, trials.csv with each friction angle that was tried, and summary.json. SI units, angles in degrees;
+world frame with x east, y north, z up.
 """
 
 import csv

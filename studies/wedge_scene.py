@@ -20,9 +20,10 @@ from potential_particles import body, shapes, use_joints
 import settings
 from stepping import advance
 
-# With LAW=joint in the environment contacts are patches with the law of joints, which gives way to tilting: with OVERLAP_OF_JOINTS of the overlap
-# of points, on a square of the size. Without dashpots a wedge that slides swings on its springs, and YADE's damping, which takes half of all that
-# speeds it up and gives half to what slows it, makes a drag of that: near the limit it crept.
+# With LAW=joint in the environment contacts are patches with the law of joints, which gives way to tilting: with
+# OVERLAP_OF_JOINTS of the overlap of points, on a square of the size. Without dashpots a wedge that slides swings on
+# its springs, and YADE's damping, which takes half of all that speeds it up and gives half to what slows it, makes a
+# drag of that: near the limit it crept.
 JOINTS = settings.choice("LAW", "point", ("point", "joint"), "law") == "joint"
 OVERLAP_OF_JOINTS = 0.1
 RESTITUTION_OF_JOINTS = 0.3
@@ -75,7 +76,8 @@ class WedgeScene:
         O.engines = self._engines()
         if JOINTS:
             per_area = self.stiffness / case.size**2
-            use_joints(normalStiffness=per_area, shearStiffness=case.shear_ratio * per_area, restitution=RESTITUTION_OF_JOINTS)
+            use_joints(normalStiffness=per_area, shearStiffness=case.shear_ratio * per_area,
+                       restitution=RESTITUTION_OF_JOINTS)
         contact.prepare()
         O.dt = self._time_step(state, radii, regularisation)
 

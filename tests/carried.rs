@@ -256,7 +256,8 @@ fn no_point_of_a_carried_contact_is_known_worse_than_was_asked_for() {
     assert!(counts[0] > 800, "{counts:?}");
 }
 
-/// The face of a slab whose own sphere is next to nothing: the sphere of the body that stands on it holds the point for both.
+/// The face of a slab whose own sphere is next to nothing: the sphere of the body that stands on it holds the point for
+/// both.
 #[test]
 fn faces_that_rock_on_a_slab_are_carried_on() {
     let planes = |half: f64| {
@@ -285,8 +286,8 @@ fn faces_that_rock_on_a_slab_are_carried_on() {
     }
 }
 
-/// Pairs that move as much as the gap between them: apart for sure as long as they are said to be, by no more than they are, and a contact begins by a
-/// solve.
+/// Pairs that move as much as the gap between them: apart for sure as long as they are said to be, by no more than they
+/// are, and a contact begins by a solve.
 #[test]
 fn pairs_that_are_apart_are_carried_on() {
     let settings = Settings::default().with_carry_tolerance(1e-9);

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Checks that count, for every test script in Python: one that fails prints the check, what was found and expected, and where, in at most ten lines."""
+"""Checks that count, for every test script in Python: one that fails prints the check, what was found and expected, and
+where, in at most ten lines.
+"""
 import os
 import sys
 import traceback
@@ -16,7 +18,9 @@ def short(text, lines=LINES):
     """The first lines of a text and its last, which of a traceback or a log says most."""
     kept = [line[:WIDTH] for line in str(text).strip().splitlines()]
     if len(kept) > lines:
-        kept = [*kept[: lines // 2], f"... {len(kept) - lines + 1} lines ...", *kept[len(kept) - (lines - lines // 2 - 1) :]]
+        kept = [
+            *kept[:lines // 2], f"... {len(kept) - lines + 1} lines ...", *kept[len(kept) - (lines - lines // 2 - 1):]
+        ]
     return "\n    ".join(kept)
 
 
@@ -42,7 +46,8 @@ class Checks:
     def close(self, found, expected, tolerance, text):
         """Numbers or vectors, absolute tolerance."""
         distance = (found - expected).norm() if hasattr(found, "norm") else abs(found - expected)
-        return self.true(distance <= tolerance, f"{text}: {found}, expected {expected} within {tolerance:g}, off by {distance:g}")
+        return self.true(distance <= tolerance,
+                         f"{text}: {found}, expected {expected} within {tolerance:g}, off by {distance:g}")
 
     def raises(self, kind, action, text, containing=""):
         try:

@@ -1,4 +1,5 @@
-//! The cone-program back end answers where it was built in, and is refused by name where it was left out; the fast one does without it.
+//! The cone-program back end answers where it was built in, and is refused by name where it was left out; the fast one
+//! does without it.
 //!
 //!     cargo test --no-default-features --features capi --test cone_program_feature
 #![allow(unsafe_code)]

@@ -134,7 +134,12 @@ fn pairs() -> impl Strategy<Value = (Particle, Pose, Particle, Pose)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 512, failure_persistence: None, rng_seed: prop::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 512,
+        failure_persistence: None,
+        rng_seed: prop::test_runner::RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn surface_points_lie_on_both_surfaces((a, at_a, b, at_b) in pairs()) {
@@ -267,7 +272,8 @@ proptest! {
     }
 }
 
-/// Solved to the end, a pair that is just apart has a lower bound on its distance above 0, whatever it remembers: the way along which it was moved is longer.
+/// Solved to the end, a pair that is just apart has a lower bound on its distance above 0, whatever it remembers: the
+/// way along which it was moved is longer.
 #[test]
 fn what_is_just_apart_knows_a_distance() {
     let at_a = pose([0.0; 3], [1.0, 0.0, 0.0, 0.0]);
@@ -327,8 +333,8 @@ fn raised_regularisation_loses_no_contact() {
     }
 }
 
-/// Faces that are tilted by less than the bulge of the raised regularisation and overlap by their edges: the library decides with
-/// the default one, says so, and gives the default's answer.
+/// Faces that are tilted by less than the bulge of the raised regularisation and overlap by their edges: the library
+/// decides with the default one, says so, and gives the default's answer.
 #[test]
 fn a_regularisation_that_was_overridden_is_told() {
     let cube = cuboid([0.5; 3], 0.05, 0.0, 1.0);
@@ -423,8 +429,9 @@ fn the_length_of_normals_changes_nothing() {
     }
 }
 
-/// Two tall blocks whose faces lie 2e-8 of their size apart or overlap by some more: with any regularisation there is an answer, and the
-/// right kind. A proof of separation on the way leaves the upper bound where it is, and a raised regularisation widens the gap by itself.
+/// Two tall blocks whose faces lie 2e-8 of their size apart or overlap by some more: with any regularisation there is
+/// an answer, and the right kind. A proof of separation on the way leaves the upper bound where it is, and a raised
+/// regularisation widens the gap by itself.
 #[test]
 fn blocks_face_to_face_are_answered_by_any_regularisation() {
     let (a, b) = (cuboid([5.0, 5.0, 14.0], 4e-3, 0.0, 20.0), cuboid([5.0, 5.0, 11.0], 4e-3, 0.0, 20.0));

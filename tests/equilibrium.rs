@@ -232,7 +232,8 @@ fn rock_mass_on_one_joint() {
     }
 }
 
-/// A slope of three sets: where the associated mechanism slides on bedding alone, dilatancy changes nothing, and no normal force is lost on the way.
+/// A slope of three sets: where the associated mechanism slides on bedding alone, dilatancy changes nothing, and no
+/// normal force is lost on the way.
 #[test]
 fn slope_of_three_sets() {
     let side = |i: usize| Plane { normal: Vector3::ith(i / 2, [1.0, -1.0][i % 2]), offset: 6.0 };

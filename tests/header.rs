@@ -139,8 +139,8 @@ fn version_macros_are_those_of_the_package() {
     }
 }
 
-/// A library of another binary interface has another name: scripts/install.sh reads the number from the header, Debian's packages have it
-/// in theirs.
+/// A library of another binary interface has another name: scripts/install.sh reads the number from the header,
+/// Debian's packages have it in theirs.
 #[test]
 fn packages_are_named_after_the_binary_interface() {
     let header = generated();

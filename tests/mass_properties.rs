@@ -19,16 +19,19 @@ fn cuboid_planes(half: [f64; 3], r: f64, turn: &Rotation3<f64>, centre: Vector3<
         .collect()
 }
 
-/// Volume and ∫x xᵀ of a cuboid whose edges and corners are rounded by r: the Minkowski sum of a box with half edges a and a ball.
+/// Volume and ∫x xᵀ of a cuboid whose edges and corners are rounded by r: the Minkowski sum of a box with half edges a
+/// and a ball.
 ///
-/// It is the sum over slabs of the box times parts of a ball (Steiner): with s_i the part of the ball's coordinate i, x_i = a_i
-/// sign + s_i outside the box. Each integral is one over the box' own coordinates times one over a ball of the dimension left.
+/// It is the sum over slabs of the box times parts of a ball (Steiner): with s_i the part of the ball's coordinate i,
+/// x_i = a_i sign + s_i outside the box. Each integral is one over the box' own coordinates times one over a ball of
+/// the dimension left.
 fn steiner(a: [f64; 3], r: f64) -> (f64, [f64; 3]) {
     let (mut volume, mut second) = (0.0, [0.0; 3]);
     for outside in 0..8_u32 {
         let free: Vec<usize> = (0..3).filter(|axis| outside >> axis & 1 == 1).collect();
         let boxed: f64 = (0..3).filter(|axis| !free.contains(axis)).map(|axis| 2.0 * a[axis]).product();
-        // Volume, ∫|s_i| and ∫s_i² of the whole ball of that dimension; both signs of each free axis together make it whole.
+        // Volume, ∫|s_i| and ∫s_i² of the whole ball of that dimension; both signs of each free axis together make it
+        // whole.
         let (ball, first, square) = match free.len() {
             0 => (1.0, 0.0, 0.0),
             1 => (2.0 * r, r * r, 2.0 * r.powi(3) / 3.0),
@@ -48,8 +51,9 @@ fn steiner(a: [f64; 3], r: f64) -> (f64, [f64; 3]) {
     (volume, second)
 }
 
-/// Checks volume, centroid and inertia about the origin against those about `centre` with ∫x xᵀ = turn·diag(second)·turnᵀ, in the
-/// measure in which `error` is documented, and that `error` is no less than what is found.
+/// Checks volume, centroid and inertia about the origin against those about `centre` with ∫x xᵀ =
+/// turn·diag(second)·turnᵀ, in the measure in which `error` is documented, and that `error` is no less than what is
+/// found.
 fn assert_near(
     found: &MassProperties,
     volume: f64,

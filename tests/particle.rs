@@ -90,8 +90,9 @@ fn a_particle_too_large_to_be_squared_is_no_particle() {
     assert!(high.x >= 1e28 && low.x <= -0.5 && low.y <= -0.5 && high.y >= 0.5, "{low} {high}");
 }
 
-/// A cube and a ball of any size that is taken have the volume, the inertia, the overlap and the patch of those of size 1 in that unit of length; of others
-/// the error names the length. With faces or a radius out of range powers of lengths would be 0 or infinite.
+/// A cube and a ball of any size that is taken have the volume, the inertia, the overlap and the patch of those of size
+/// 1 in that unit of length; of others the error names the length. With faces or a radius out of range powers of
+/// lengths would be 0 or infinite.
 #[test]
 fn what_is_made_is_right_in_any_unit_of_length() {
     for unit in [1e-200, 1e-110, 1e-80, 1e-31, 2e-30, 1e-20, 1.0, 1e20, 5e29, 1e31, 1e100, 1e150] {
@@ -161,8 +162,8 @@ fn a_rounding_radius_too_small_for_the_bounding_radius_is_refused() {
     assert!((distance - 1e-2).abs() < 1e-8, "{distance:e}");
 }
 
-/// Found by fuzzing: normals of 1e150, whose planes lie 1e143 times as near as the bounding ball says; the search from the ball lost the
-/// crossing, and where n·x cancels, a slope without digits led to -1e248.
+/// Found by fuzzing: normals of 1e150, whose planes lie 1e143 times as near as the bounding ball says; the search from
+/// the ball lost the crossing, and where n·x cancels, a slope without digits led to -1e248.
 #[test]
 fn planes_far_nearer_than_the_bounding_radius_are_found() {
     let planes = [[1e150, 1e150, 1e150, 1.0], [1e150, 0.23, 0.0, 0.0]].map(Plane::from);

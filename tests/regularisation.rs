@@ -15,7 +15,8 @@ fn at(x: f64, y: f64, z: f64) -> Pose {
 
 const STRENGTHS: [f64; 6] = [1e-13, 1e-10, 1e-7, 1e-4, 1e-2, 0.1];
 
-/// A ball whose centre lies in the core of a cube of k = 0: without the regularisation s = 0 at the centre of the ball, and nowhere else.
+/// A ball whose centre lies in the core of a cube of k = 0: without the regularisation s = 0 at the centre of the ball,
+/// and nowhere else.
 #[test]
 fn the_point_of_a_ball_in_a_core_is_its_centre_but_for_its_bound() {
     for strength in STRENGTHS {
@@ -45,7 +46,8 @@ fn the_point_of_a_ball_in_a_core_is_its_centre_but_for_its_bound() {
     }
 }
 
-/// A ball on a face and over an edge of a cube: the regularised point is off the one that a solution with next to none gives by no more than its bound.
+/// A ball on a face and over an edge of a cube: the regularised point is off the one that a solution with next to none
+/// gives by no more than its bound.
 #[test]
 fn what_a_stronger_regularisation_moves_is_in_the_bound() {
     let least = |a: &Particle, at_a: &Pose, b: &Particle, at_b: &Pose| {
@@ -86,8 +88,9 @@ fn what_a_stronger_regularisation_moves_is_in_the_bound() {
     assert!(compared > 60, "{compared}");
 }
 
-/// The closest points of a plate and a cube beside its middle: by definition each minimises the scale of the other particle, which all points of the common
-/// face do; what the regularisation chooses lies apart along the face, and is flagged.
+/// The closest points of a plate and a cube beside its middle: by definition each minimises the scale of the other
+/// particle, which all points of the common face do; what the regularisation chooses lies apart along the face, and is
+/// flagged.
 #[test]
 fn closest_points_that_are_free_along_a_face_are_flagged() {
     let (plate, cube) = (cuboid([5.0, 5.0, 0.5], 0.01), cuboid([0.5; 3], 0.01));

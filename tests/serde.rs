@@ -1,4 +1,5 @@
-//! The feature `serde`: what is written down is read back to the last bit, and what no constructor would take is refused.
+//! The feature `serde`: what is written down is read back to the last bit, and what no constructor would take is
+//! refused.
 
 use potential_particles::rock;
 use potential_particles::shapes::{self, Rounding};

@@ -57,8 +57,8 @@ fn faces_are_where_the_half_spaces_end() {
     }
 }
 
-/// A script that names faces by their numbers finds them: the planes of a wedge stay in the order given, whatever their areas, and one that makes no
-/// face is left out.
+/// A script that names faces by their numbers finds them: the planes of a wedge stay in the order given, whatever their
+/// areas, and one that makes no face is left out.
 #[test]
 fn half_spaces_keep_their_order() {
     let (steep, flat) = (70f64.to_radians(), 25f64.to_radians());
@@ -76,7 +76,7 @@ fn half_spaces_keep_their_order() {
         let beyond = Plane { normal: given[0], offset: 1.5 };
         let all: Vec<Plane> = planes[..2].iter().chain([&beyond]).chain(&planes[2..]).copied().collect();
         let shape = shapes::half_spaces(&all, &sharp()).unwrap();
-        let found: Vec<_> = shape.particle.planes().map(|plane| shape.orientation * plane.normal).collect();
+        let found: Vec<_> = shape.particle.planes().map(|plane| shape.pose().rotation() * plane.normal).collect();
         assert_eq!(found.len(), planes.len());
         for (found, plane) in found.iter().zip(&planes) {
             assert!((found - plane.normal).norm() < 1e-14, "turned by {turn}: {found} is not {}", plane.normal);
@@ -104,8 +104,8 @@ fn a_hull_stands_where_its_points_are() {
     }
 }
 
-/// However flat they are, as far as faces are not coplanar: pyramids and tetrahedra have their volumes h/3 and h/6, and their centroids where a quarter
-/// of their height is.
+/// However flat they are, as far as faces are not coplanar: pyramids and tetrahedra have their volumes h/3 and h/6, and
+/// their centroids where a quarter of their height is.
 #[test]
 fn flat_hulls_have_their_volumes() {
     for height in [0.1, 0.02, 1e-2, 1e-3, 1e-4, 1e-5] {

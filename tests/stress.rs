@@ -1,5 +1,5 @@
-//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane, memories, patches and mass properties in
-//! seconds; and every pair that once failed.
+//! "make stress" in small: random pairs, walks, sweeps, walls, seams, pairs of the plane, memories, patches and mass
+//! properties in seconds; and every pair that once failed.
 
 #[path = "../tools/stress/boundaries.rs"]
 mod boundaries;

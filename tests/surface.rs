@@ -137,7 +137,8 @@ fn volume_of_the_mesh_tends_to_that_of_the_body() {
     assert!((volume(&cube) - 8.0).abs() < 1e-4, "{}", volume(&cube));
 }
 
-/// An edge sharper than the tolerance costs no more than its corners: as many triangles as the polyhedron has, or few more.
+/// An edge sharper than the tolerance costs no more than its corners: as many triangles as the polyhedron has, or few
+/// more.
 #[test]
 fn sharp_bodies_need_few_triangles() {
     assert_eq!(SurfaceMesh::of(&particle(&CUBE, 1e-6, 0.0), 1e-3).unwrap().triangles.len(), 24);
@@ -145,7 +146,8 @@ fn sharp_bodies_need_few_triangles() {
     assert!(pyramid.triangles.len() < 100, "{}", pyramid.triangles.len());
 }
 
-/// Normals of lengths from 1e-40 to 1e40 leave a mesh that is closed and says how far off it is, or none; either ends soon.
+/// Normals of lengths from 1e-40 to 1e40 leave a mesh that is closed and says how far off it is, or none; either ends
+/// soon.
 #[test]
 fn normals_of_any_length_end_at_the_most_vertices() {
     let mut state = 3_u64;

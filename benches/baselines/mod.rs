@@ -1,4 +1,5 @@
-//! The solvers of the literature, written from its equations, and a quadrature, to compare with. Not part of the library.
+//! The solvers of the literature, written from its equations, and a quadrature, to compare with. Not part of the
+//! library.
 
 pub mod area;
 pub mod cubic;

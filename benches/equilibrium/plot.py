@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A wall at its limit, moved along its mechanism, with forces and the use of friction: python3 benches/equilibrium/plot.py; reads and
-writes out/equilibrium."""
+"""A wall at its limit, moved along its mechanism, with forces and the use of friction: python3
+benches/equilibrium/plot.py; reads and writes out/equilibrium.
+"""
 import json
 from pathlib import Path
 
@@ -22,7 +23,8 @@ for (name, wall), axes in zip(walls.items(), all_axes.T):
         # A rotation by omega about y moves (x, z) by omega (z, -x).
         turned = corners + MOVED * body["angular"][1] * corners[:, ::-1] * [1, -1]
         axes[0].add_patch(plt.Polygon(corners + centre, facecolor="#e8e2d6", edgecolor="#555555", linewidth=0.6))
-        axes[1].add_patch(plt.Polygon(turned + centre + MOVED * linear, facecolor="#e8e2d6", edgecolor="#555555", linewidth=0.6))
+        axes[1].add_patch(
+            plt.Polygon(turned + centre + MOVED * linear, facecolor="#e8e2d6", edgecolor="#555555", linewidth=0.6))
     colours = matplotlib.colormaps["plasma_r"]
     largest = max(np.linalg.norm(force) for contact in wall["contacts"] for _, force in contact["corners"])
     for contact in wall["contacts"]:

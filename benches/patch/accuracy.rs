@@ -30,7 +30,8 @@ fn off(found: f64, exact: f64) -> f64 {
     (found / exact - 1.0).abs()
 }
 
-/// N, M and the contact length of a tilted block of sides 0.6 and 0.4: largest relative errors within the base and beyond its middle third.
+/// N, M and the contact length of a tilted block of sides 0.6 and 0.4: largest relative errors within the base and
+/// beyond its middle third.
 pub fn faces() -> [f64; 2] {
     let r: f64 = 1e-6;
     let (length, width, overlap) = (0.6 - 2.0 * r, 0.4 - 2.0 * r, 1e-3 * r);
@@ -114,7 +115,8 @@ fn on_plane(a: &Particle, pose: &Pose, tolerance: f64) -> Option<(Patch, Vector3
     })
 }
 
-/// A cube slid over square tiles of two triangles each: largest relative difference of the force to that on one slab, of so many places.
+/// A cube slid over square tiles of two triangles each: largest relative difference of the force to that on one slab,
+/// of so many places.
 pub fn tiles(places: usize, tolerance: f64) -> f64 {
     let cube = cuboid([0.5; 3], 0.01, 0.0);
     let settings = PatchSettings { tolerance, with_energy: false, ..PatchSettings::default() };

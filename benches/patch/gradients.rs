@@ -1,7 +1,8 @@
 //! Force and torque against −∂W of random pairs, of particles on a plane and of particles in a closed mesh.
 //!
-//! The energy is another integral over the patch, and its differences know nothing of the force. They are taken with three steps, of which the best counts: a
-//! long one meets jumps of the third derivative, where a plane goes on, and a short one divides the tolerance of the energy by little.
+//! The energy is another integral over the patch, and its differences know nothing of the force. They are taken with
+//! three steps, of which the best counts: a long one meets jumps of the third derivative, where a plane goes on, and a
+//! short one divides the tolerance of the energy by little.
 
 use crate::bodies::{Chance, FAMILIES, Pair, body, difference, mesh_of_box};
 use nalgebra::{UnitQuaternion, Vector3};
@@ -61,7 +62,8 @@ pub fn measure(pairs: usize) -> [Outcome; 3] {
 
 type Moved = Box<dyn Fn(Vector3<f64>, Vector3<f64>, bool) -> Wrench>;
 
-/// `make`: a contact as a function of a shift and a turn, whether with its energy; its overlap, and the size of the body.
+/// `make`: a contact as a function of a shift and a turn, whether with its energy; its overlap, and the size of the
+/// body.
 fn of(kind: &'static str, count: usize, make: impl Fn(&mut Chance) -> (Moved, f64, f64)) -> Outcome {
     let mut chance = Chance::new(2024);
     let (mut errors, mut counts) = (Vec::new(), [0; 3]);

@@ -1,6 +1,6 @@
-//! Contact patches: accuracy against closed forms and the gradient of their energy, time by kind of contact. Results go to
-//! out/patch/summary.json; `-- quick` takes a little of everything,
-//! `-- pairs=500` as many pairs for the gradient of the energy.
+//! Contact patches: accuracy against closed forms and the gradient of their energy, time by kind of contact. Results go
+//! to out/patch/summary.json; `-- quick` takes a little of everything, `-- pairs=500` as many pairs for the gradient of
+//! the energy.
 
 mod accuracy;
 #[path = "../../tests/patch/bodies.rs"]

@@ -20,7 +20,8 @@ def main():
         for i, kind in enumerate(kind for kind in kinds if kind["kind"] == name):
             rows = kind["rows"]
             label = name if i == 0 else None
-            left.loglog([row["tolerance"] for row in rows], [row["units"] for row in rows], "o-", color=f"C{colour}", label=label, ms=3, lw=0.7)
+            left.loglog([row["tolerance"] for row in rows], [row["units"] for row in rows], "o-", color=f"C{colour}",
+                        label=label, ms=3, lw=0.7)
             errors = [max(row["error"], 1e-16) for row in rows]
             right.loglog([max(row["estimate"], 1e-16) for row in rows], errors, "o", color=f"C{colour}", ms=3)
     left.set(xlabel="tolerance", ylabel="time / evaluation of both bodies")

@@ -9,7 +9,8 @@ use serde_json::{Value, json};
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Shortest time that is measured, seconds, and of how many such the least is taken: short ones, so that other programs leave some alone.
+/// Shortest time that is measured, seconds, and of how many such the least is taken: short ones, so that other programs
+/// leave some alone.
 const SHORTEST: f64 = 3e-4;
 const TIMES: usize = 40;
 

@@ -25,8 +25,10 @@ PUBLISHED = (
         "in no package registry; the rows chunky above are its kind of bodies (beta = 20)",
     ),
     ("openGJK", "GJK alone: distance", "0.22 µs, on a GPU", "a GPU", "in no package registry"),
-    ("Coal, as published", "GJK with Nesterov acceleration", "1.1 to 1.6 µs at 1e-6", "not stated with the figure", "measured above"),
-    ("DCOL", "growth factor, by cone programs, in Julia", "13 µs a pair at 1e-10", "not stated with the figure", "Julia's packages are not at hand"),
+    ("Coal, as published", "GJK with Nesterov acceleration", "1.1 to 1.6 µs at 1e-6", "not stated with the figure",
+     "measured above"),
+    ("DCOL", "growth factor, by cone programs, in Julia", "13 µs a pair at 1e-10", "not stated with the figure",
+     "Julia's packages are not at hand"),
     (
         "exaDEM",
         "piles of sphero-polyhedra",

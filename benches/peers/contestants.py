@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Who takes part: what each computes, its settings and stop rule, what a contact law gets of it; and the process that answers for it."""
+"""Who takes part: what each computes, its settings and stop rule, what a contact law gets of it; and the process that
+answers for it.
+"""
 
 import json
 import os
@@ -28,7 +30,8 @@ class Contestant:
     edges: tuple = ("sharp", "rounded", "potential", "chunky")
     most_planes: int = 1000
     warmths: tuple = ("cold", "warm")
-    # Whether a peer on the same work as our contact call: one with point, normal and overlap, in the same time scale of a step.
+    # Whether a peer on the same work as our contact call: one with point, normal and overlap, in the same time scale of
+    # a step.
     rival: bool = False
 
     @property
@@ -62,26 +65,31 @@ CONTESTANTS = (
     _one(OURS, "midway", "this library, midway", MIDWAY, DEFAULT, OWN),
     _one(OURS, "carried", "this library, midway in a batch", MIDWAY + "; the last contact is carried on", CARRIED, OWN),
     _one(OURS, "closest", "this library, closest", "closest problem, both points", DEFAULT, OWN),
-    _one(OURS, "cone_program", "clarabel", "the paper's cone program of midway", "its defaults, through this library", POINT,
-         places=TOUCH, most_planes=20, warmths=("cold",), rival=True),
+    _one(OURS, "cone_program", "clarabel", "the paper's cone program of midway", "its defaults, through this library",
+         POINT, places=TOUCH, most_planes=20, warmths=("cold", ), rival=True),
     _one(PARRY, "contact", "parry", GJK, PARRYS, BOTH, rival=True),
-    _one(PARRY, "intersection", "parry, yes or no", "GJK until a plane separates", PARRYS, "yes or no",
-         places=APART, edges=("sharp",), rival=True),
-    _one(PARRY, "distance", "parry, distance", "GJK to the end", PARRYS, "distance, closest points", DISTANCE, places=("near",)),
+    _one(PARRY, "intersection", "parry, yes or no", "GJK until a plane separates", PARRYS, "yes or no", places=APART,
+         edges=("sharp", ), rival=True),
+    _one(PARRY, "distance", "parry, distance", "GJK to the end", PARRYS, "distance, closest points", DISTANCE,
+         places=("near", )),
     _one(COAL, "contact", "Coal", GJK, COALS, BOTH, rival=True),
     _one(COAL, "contact-nesterov", "Coal, Nesterov", GJK + "; Nesterov acceleration", COALS, BOTH, rival=True),
-    _one(COAL, "distance", "Coal, distance", "GJK to the end", COALS, "distance, closest points", DISTANCE, places=("near",)),
+    _one(COAL, "distance", "Coal, distance", "GJK to the end", COALS, "distance, closest points", DISTANCE,
+         places=("near", )),
     _one(BULLET, "contact", "Bullet, double precision", GJK, BULLETS, BOTH, rival=True),
-    _one(MUJOCO, "contact", "MuJoCo", "GJK; EPA; its mj_geomDistance", MUJOCOS, POINT + ", surface points", edges=("sharp",), rival=True),
-    _one(MUJOCO, "distance", "MuJoCo, distance", "GJK to the end", MUJOCOS, "distance, closest points", DISTANCE, places=("near",), edges=("sharp",)),
-    _one(DRAKE, "contact", "Drake", "its query of all pairs of a scene, by FCL", DRAKES, BOTH, edges=("sharp",), most_planes=100, rival=True),
+    _one(MUJOCO, "contact", "MuJoCo", "GJK; EPA; its mj_geomDistance", MUJOCOS, POINT + ", surface points",
+         edges=("sharp", ), rival=True),
+    _one(MUJOCO, "distance", "MuJoCo, distance", "GJK to the end", MUJOCOS, "distance, closest points", DISTANCE,
+         places=("near", ), edges=("sharp", )),
+    _one(DRAKE, "contact", "Drake", "its query of all pairs of a scene, by FCL", DRAKES, BOTH, edges=("sharp", ),
+         most_planes=100, rival=True),
     _one(YADE, "potential", "YADE's PotentialParticle", "least f_A + f_B with f_A = f_B, by Newton",
-         "accuracyTol 1e-7 (default), no contact area", POINT + "; area by rays",
-         places=TOUCH, edges=("potential",), most_planes=12, warmths=WARM, rival=True),
+         "accuracyTol 1e-7 (default), no contact area", POINT + "; area by rays", places=TOUCH, edges=("potential", ),
+         most_planes=12, warmths=WARM, rival=True),
     _one(YADE, "polyhedra", "YADE's Polyhedra", "volume of intersection, by CGAL", "exact but for rounding",
-         "point, normal, volume, area", places=TOUCH, edges=("sharp",), most_planes=100, warmths=WARM, rival=True),
-    _one(YADE, "levelset", "YADE's LevelSet", LEVEL_SET, "no tolerance: nodes and grid", POINT,
-         places=TOUCH, edges=("sharp", "rounded"), most_planes=20, warmths=WARM),
+         "point, normal, volume, area", places=TOUCH, edges=("sharp", ), most_planes=100, warmths=WARM, rival=True),
+    _one(YADE, "levelset", "YADE's LevelSet", LEVEL_SET, "no tolerance: nodes and grid", POINT, places=TOUCH,
+         edges=("sharp", "rounded"), most_planes=20, warmths=WARM),
 )
 
 
@@ -96,7 +104,8 @@ class Server:
         """The answer as Python value; RuntimeError where there is none."""
         if self.process is None:
             environment = dict(os.environ, **(self.environment or {}))
-            self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, env=environment)
+            self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+                                            stderr=subprocess.DEVNULL, env=environment)
             self.rest = b""
         self.process.stdin.write((" ".join(map(str, words)) + "\n").encode())
         self.process.stdin.flush()

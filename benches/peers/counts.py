@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What a program does, by count: instructions, arithmetic, memory accesses and cache misses, from callgrind and a disassembly."""
+"""What a program does, by count: instructions, arithmetic, memory accesses and cache misses, from callgrind and a
+disassembly.
+"""
 
 import re
 import subprocess
@@ -11,9 +13,13 @@ LINE = 64  # bytes that one miss brings
 ARITHMETIC = re.compile(r"v?(add|sub|mul|min|max|f?n?m(add|sub))[0-9]*[sp]d$")
 DIVISION = re.compile(r"v?div[sp]d$")
 ROOT = re.compile(r"v?sqrt[sp]d$")
-# Callgrind's events: instructions, loads, stores, and misses of the first level: of instructions, of loads and of stores.
+# Callgrind's events: instructions, loads, stores, and misses of the first level: of instructions, of loads and of
+# stores.
 EVENTS = ("instructions", "loads", "stores", "code misses", "load misses", "store misses")
-CALLGRIND = ["valgrind", "--tool=callgrind", "--cache-sim=yes", "--dump-instr=yes", "--dump-line=no", "--compress-pos=no", "--compress-strings=no"]
+CALLGRIND = [
+    "valgrind", "--tool=callgrind", "--cache-sim=yes", "--dump-instr=yes", "--dump-line=no", "--compress-pos=no",
+    "--compress-strings=no"
+]
 
 
 class Program:
@@ -56,7 +62,8 @@ class Program:
 
 def _kinds(program):
     """Address -> 'arithmetic', 'divisions' or 'roots', of the instructions that are one."""
-    listing = subprocess.run(["objdump", "--disassemble", "--no-show-raw-insn", program], check=True, capture_output=True, text=True).stdout
+    listing = subprocess.run(["objdump", "--disassemble", "--no-show-raw-insn", program], check=True,
+                             capture_output=True, text=True).stdout
     found = {}
     for address, name in re.findall(r"^\s*([0-9a-f]+):\s+(\w+)", listing, re.MULTILINE):
         for kind, pattern in (("arithmetic", ARITHMETIC), ("divisions", DIVISION), ("roots", ROOT)):
@@ -66,18 +73,26 @@ def _kinds(program):
 
 
 def of_functions(command, environment, toggle, wanted):
-    """Counter of EVENTS, callees included, of each of `wanted` = {name: how its line in the annotation looks}, while `toggle` runs."""
+    """Counter of EVENTS, callees included, of each of `wanted` = {name: how its line in the annotation looks}, while
+    `toggle` runs.
+    """
     with tempfile.TemporaryDirectory() as folder:
         profile = Path(folder) / "profile"
         plain = [option for option in CALLGRIND if not option.startswith(("--dump", "--compress"))]
-        subprocess.run([*plain, f"--toggle-collect={toggle}", f"--callgrind-out-file={profile}", *command], env=environment,
-                       stdin=subprocess.DEVNULL, check=True, capture_output=True)
-        annotate = ["callgrind_annotate", "--inclusive=yes", "--threshold=100", f"--show={','.join(('Ir', 'Dr', 'Dw', 'I1mr', 'D1mr', 'D1mw'))}"]
+        subprocess.run([*plain, f"--toggle-collect={toggle}", f"--callgrind-out-file={profile}", *command],
+                       env=environment, stdin=subprocess.DEVNULL, check=True, capture_output=True)
+        annotate = [
+            "callgrind_annotate", "--inclusive=yes", "--threshold=100",
+            f"--show={','.join(('Ir', 'Dr', 'Dw', 'I1mr', 'D1mr', 'D1mw'))}"
+        ]
         listing = subprocess.run([*annotate, profile], check=True, capture_output=True, text=True).stdout
     found = {}
     for line in listing.splitlines():
         numbers = re.findall(r"([0-9,]+|\.)\s*(?:\([^)]*%\)|\s)", line[:140])
         for name, look in wanted.items():
             if name not in found and re.search(look, line):
-                found[name] = Counter({event: int(number.replace(",", "").replace(".", "0") or 0) for event, number in zip(EVENTS, numbers)})
+                found[name] = Counter({
+                    event: int(number.replace(",", "").replace(".", "0") or 0)
+                    for event, number in zip(EVENTS, numbers)
+                })
     return found

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Drake on the pairs of pairs.py, by the protocol of rust/src/server.rs; run by the Python that has its wheel.
 
-All pairs of a group are one scene, far from each other, and one query answers for all: it first looks which boxes meet. Poses are set from Python, which
-is measured with it, less than a microsecond a body.
+All pairs of a group are one scene, far from each other, and one query answers for all: it first looks which boxes meet.
+Poses are set from Python, which is measured with it, less than a microsecond a body.
 """
 
 import json

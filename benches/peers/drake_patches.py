@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Drake's hydroelastic contact on the cases of patches.py; run by the Python that has its wheel: `drake_patches.py CASES SECONDS`.
+"""Drake's hydroelastic contact on the cases of patches.py; run by the Python that has its wheel: `drake_patches.py
+CASES SECONDS`.
 
-A line of JSON for each case: for each resolution force, torque, torque from the middles of polygons, area, number of polygons and seconds a pair. Copies of the case stand far from each
-other in one scene, and one query answers for all. It ends with the surfaces and their pressures: forces are summed here, untimed.
+A line of JSON for each case: for each resolution force, torque, torque from the middles of polygons, area, number of
+polygons and seconds a pair. Copies of the case stand far from each other in one scene, and one query answers for all.
+It ends with the surfaces and their pressures: forces are summed here, untimed.
 """
 
 import json
@@ -12,8 +14,18 @@ import time
 import numpy as np
 from pydrake.common.eigen_geometry import Quaternion
 from pydrake.geometry import (
-    AddCompliantHydroelasticProperties, AddCompliantHydroelasticPropertiesForHalfSpace, AddRigidHydroelasticProperties, Box, FramePoseVector,
-    GeometryFrame, GeometryInstance, HalfSpace, HydroelasticContactRepresentation, ProximityProperties, SceneGraph, Sphere,
+    AddCompliantHydroelasticProperties,
+    AddCompliantHydroelasticPropertiesForHalfSpace,
+    AddRigidHydroelasticProperties,
+    Box,
+    FramePoseVector,
+    GeometryFrame,
+    GeometryInstance,
+    HalfSpace,
+    HydroelasticContactRepresentation,
+    ProximityProperties,
+    SceneGraph,
+    Sphere,
 )
 from pydrake.math import RigidTransform
 
@@ -37,7 +49,8 @@ class Scene:
             for number, body in enumerate(case["bodies"]):
                 if body[0] != "ground":
                     frame = self.graph.RegisterFrame(source, GeometryFrame(f"body {copy} {number}"))
-                    identity = self.graph.RegisterGeometry(source, frame, self.instance(body, hint, f"shape {copy} {number}"))
+                    identity = self.graph.RegisterGeometry(source, frame,
+                                                           self.instance(body, hint, f"shape {copy} {number}"))
                     self.pair_of[identity.get_value()] = (copy, number)
                     self.frames.append((frame, copy, case["poses"][number]))
         self.context = self.graph.CreateDefaultContext()
@@ -50,7 +63,8 @@ class Scene:
     @staticmethod
     def instance(body, hint, name):
         kind, size, modulus = body
-        shape = {"ball": Sphere(size), "box": Box(*[2 * size or 1.0] * 3), "ground": HalfSpace()}[kind] if size else HalfSpace()
+        shape = {"ball": Sphere(size), "box": Box(*[2 * size or 1.0]
+                                                  * 3), "ground": HalfSpace()}[kind] if size else HalfSpace()
         properties = ProximityProperties()
         if modulus is None:
             AddRigidHydroelasticProperties(properties)
@@ -65,8 +79,9 @@ class Scene:
         return self.query.Eval(self.context).ComputeContactSurfaces(HydroelasticContactRepresentation.kPolygon)
 
     def answer(self):
-        """Of the first copy: force and torque on the upper body; the torque with the force of each polygon at its middle, as contacts are made of them; area,
-        number of polygons."""
+        """Of the first copy: force and torque on the upper body; the torque with the force of each polygon at its
+        middle, as contacts are made of them; area, number of polygons.
+        """
         for surface in self.go():
             first, second = (self.pair_of.get(one.get_value(), (None, 0)) for one in (surface.id_M(), surface.id_N()))
             if 0 not in (first[0], second[0]):
@@ -76,7 +91,8 @@ class Scene:
             mesh, pressure = surface.poly_mesh_W(), surface.poly_e_MN()
             force, torque, at_middles = np.zeros(3), np.zeros(3), np.zeros(3)
             for i in range(mesh.num_faces()):
-                middle, normal, polygon = np.array(mesh.element_centroid(i)), sign * np.array(mesh.face_normal(i)), mesh.element(i)
+                middle, normal, polygon = np.array(
+                    mesh.element_centroid(i)), sign * np.array(mesh.face_normal(i)), mesh.element(i)
                 push = mesh.area(i) * pressure.EvaluateCartesian(i, middle) * normal
                 force += push
                 at_middles += np.cross(middle - self.about, push)

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Gets and builds the contestants, once; what cannot be had is left out and said. The only part that needs the network."""
+"""Gets and builds the contestants, once; what cannot be had is left out and said. The only part that needs the network.
+"""
 
 import os
 import subprocess
@@ -55,7 +56,8 @@ def program(name):
 
 def packages(names):
     """Installs those of Debian's packages that are not there."""
-    listed = subprocess.run(["dpkg-query", "--show", "--showformat=${db:Status-Abbrev}${Package}\n", *names], capture_output=True, text=True)
+    listed = subprocess.run(["dpkg-query", "--show", "--showformat=${db:Status-Abbrev}${Package}\n", *names],
+                            capture_output=True, text=True)
     there = {line[3:] for line in listed.stdout.splitlines() if line[1:2] == "i"}
     absent = [name for name in names if name not in there]
     if absent:
@@ -65,7 +67,8 @@ def packages(names):
         # Each by itself: what one suite of Debian lacks must not keep the others away.
         subprocess.run([*apt, "update"], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         for name in absent:
-            subprocess.run([*apt, "install", "--yes", "--no-install-recommends", name], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            subprocess.run([*apt, "install", "--yes", "--no-install-recommends", name], stdout=subprocess.DEVNULL,
+                           stderr=subprocess.DEVNULL)
 
 
 def _target():

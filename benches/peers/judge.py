@@ -19,7 +19,8 @@ class Judge:
         self.kept = {}
 
     def errors(self, contestant, answers):
-        """Counts of pairs, failures and wrong answers, median and worst error of the rest, and what that error is of."""
+        """Counts of pairs, failures and wrong answers, median and worst error of the rest, and what that error is of.
+        """
         errors, failed, wrong = [], 0, 0
         for pair, answer in enumerate(answers):
             if answer is None or any(value is None for value in answer) and contestant.way != "intersection":
@@ -38,7 +39,8 @@ class Judge:
             "wrong": int(wrong),
             "median_error": float(np.median(errors)) if errors else None,
             "worst_error": float(max(errors)) if errors else None,
-            "error_of": "volume, relative" if contestant.way == "polyhedra" else "distance" if contestant.work == "distance" else "overlap",
+            "error_of": "volume, relative" if contestant.way == "polyhedra" else
+                        "distance" if contestant.work == "distance" else "overlap",
         }
 
     def truth(self, contestant, pair):

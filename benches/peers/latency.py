@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Cycles that a call takes because each result waits for those it needs: gdb steps through calls, llvm-mca follows what depends on what.
+"""Cycles that a call takes because each result waits for those it needs: gdb steps through calls, llvm-mca follows what
+depends on what.
 
 llvm-mca takes every load from the first cache, every branch as foreseen, and no load to wait for a store.
 """
@@ -34,14 +35,18 @@ gdb.execute("kill")
 
 
 def cycles(command, request, function, instructions):
-    """Mean over some calls of `request`. function: a part of the symbol of what each call runs once; instructions: of a call."""
+    """Mean over some calls of `request`. function: a part of the symbol of what each call runs once; instructions: of a
+    call.
+    """
     program = str(command[0])
     symbol, begin = _symbol(program, function)
     steps = min(MOST_STEPS, int((MOST_CALLS + 1) * instructions))
     with tempfile.TemporaryDirectory() as folder:
         trace = _trace(Path(folder), program, command[1:], request, symbol, steps)
         text = _disassembly(program)
-        return statistics.mean(_simulated(Path(folder), [text[address] for address in call if address in text]) for call in _calls(trace, begin))
+        return statistics.mean(
+            _simulated(Path(folder), [text[address] for address in call if address in text])
+            for call in _calls(trace, begin))
 
 
 def _symbol(program, function):
@@ -55,7 +60,9 @@ def _trace(folder, program, arguments, request, symbol, steps):
     """Addresses in the program of what is run, one after the other."""
     requests, trace, script = folder / "requests", folder / "trace", folder / "step.py"
     requests.write_text(f"{request}\n" * REQUESTS)
-    script.write_text(STEPPER.format(symbol=symbol, before=CALLS_BEFORE, arguments=" ".join(map(str, arguments)), requests=requests, trace=trace, steps=steps))
+    script.write_text(
+        STEPPER.format(symbol=symbol, before=CALLS_BEFORE, arguments=" ".join(map(str, arguments)), requests=requests,
+                       trace=trace, steps=steps))
     subprocess.run(["gdb", "-batch", "-q", "-x", script, program], check=True, capture_output=True)
     return [int(line) - BASE for line in trace.read_text().split()]
 
@@ -67,8 +74,12 @@ def _calls(trace, begin):
 
 
 def _disassembly(program):
-    listing = subprocess.run(["objdump", "--disassemble", "--no-show-raw-insn", program], check=True, capture_output=True, text=True).stdout
-    return {int(address, 16): _plain(text) for address, text in re.findall(r"^\s*([0-9a-f]+):\t(.*)$", listing, re.MULTILINE)}
+    listing = subprocess.run(["objdump", "--disassemble", "--no-show-raw-insn", program], check=True,
+                             capture_output=True, text=True).stdout
+    return {
+        int(address, 16): _plain(text)
+        for address, text in re.findall(r"^\s*([0-9a-f]+):\t(.*)$", listing, re.MULTILINE)
+    }
 
 
 def _plain(text):
@@ -90,5 +101,6 @@ def _simulated(folder, instructions):
 
 def _processor():
     with open("/proc/cpuinfo") as file:
-        fields = dict(re.findall(r"^(vendor_id|cpu family)\s*: (.*)$", file.read(os.sysconf("SC_PAGESIZE")), re.MULTILINE))
+        fields = dict(
+            re.findall(r"^(vendor_id|cpu family)\s*: (.*)$", file.read(os.sysconf("SC_PAGESIZE")), re.MULTILINE))
     return PROCESSORS.get((fields.get("vendor_id"), int(fields.get("cpu family", 0))), OTHERWISE)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Time and error of each contestant on the same pairs. All take turns in short batches, and of each the fastest batch counts."""
+"""Time and error of each contestant on the same pairs. All take turns in short batches, and of each the fastest batch
+counts.
+"""
 
 import json
 import os
@@ -44,12 +46,18 @@ class Measurement:
 
     def __init__(self, found, effort):
         self.effort = effort
-        made = [pairs.group(*name, effort.pairs if name[0] < 1000 else effort.many, SEED) for name in named_groups(effort)]
+        made = [
+            pairs.group(*name, effort.pairs if name[0] < 1000 else effort.many, SEED) for name in named_groups(effort)
+        ]
         self.groups = {one.name: one for one in made}
         swept, potential = install.OUT / "pairs.txt", install.OUT / "pairs_potential.txt"
         pairs.write(made, swept)
-        lines = subprocess.run([install.program("placed"), swept, repr(OVERLAP)], check=True, capture_output=True, text=True).stdout.splitlines()
-        moved = [pairs.moved(one, pairs.shifts_of(one, json.loads(line.replace("NaN", "0")))) for one, line in zip(made, lines)]
+        lines = subprocess.run([install.program("placed"), swept, repr(OVERLAP)], check=True, capture_output=True,
+                               text=True).stdout.splitlines()
+        moved = [
+            pairs.moved(one, pairs.shifts_of(one, json.loads(line.replace("NaN", "0"))))
+            for one, line in zip(made, lines)
+        ]
         pairs.write(moved, potential)
         self.servers = {
             name: Server([*found.commands[name], potential if name == OURS else swept])
@@ -88,7 +96,8 @@ class Measurement:
                 if best[index] is None or slow and turn >= self.effort.slow_rounds:
                     continue
                 try:
-                    found = self.server(one.program, one.way).ask("time", group.name, one.way, warmth, self.effort.seconds)
+                    found = self.server(one.program, one.way).ask("time", group.name, one.way, warmth,
+                                                                  self.effort.seconds)
                     best[index] = min(best[index], found)
                 except (RuntimeError, OSError) as error:
                     print(f"      {one.label}: {error}", flush=True)
@@ -122,7 +131,10 @@ class Measurement:
                     for warmth in ("cold", "warm"):
                         asked = f"{way}@{tolerance}"
                         server = self.server(program, way)
-                        times = [server.ask("time", name, asked, warmth, self.effort.seconds) for _ in range(self.effort.rounds // 3 + 1)]
+                        times = [
+                            server.ask("time", name, asked, warmth, self.effort.seconds)
+                            for _ in range(self.effort.rounds // 3 + 1)
+                        ]
                         errors = judge.errors(one, self.answers(program, group, asked, warmth))
                         found.append({
                             "group": name, "label": one.label, "tolerance": float(tolerance), "warmth": warmth,

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Piles of pyramids by YADE's kinds of bodies, by this plugin, and by LAMMPS, from the same states: falling, and at rest."""
+"""Piles of pyramids by YADE's kinds of bodies, by this plugin, and by LAMMPS, from the same states: falling, and at
+rest.
+"""
 
 import json
 import os
@@ -16,12 +18,14 @@ sys.path.insert(0, str(install.TOP / "studies"))
 
 FOLDER = install.OUT / "piles"
 OURS, POTENTIAL, POLYHEDRA, LEVEL_SET, LAMMPS = "ours", "potential", "polyhedra", "levelset", "lammps"
-LABELS = {OURS: "this plugin", POTENTIAL: "YADE's PotentialParticle", POLYHEDRA: "YADE's Polyhedra", LEVEL_SET: "YADE's LevelSet",
-          LAMMPS: "LAMMPS, body/rounded/polyhedron"}
+LABELS = {
+    OURS: "this plugin", POTENTIAL: "YADE's PotentialParticle", POLYHEDRA: "YADE's Polyhedra",
+    LEVEL_SET: "YADE's LevelSet", LAMMPS: "LAMMPS, body/rounded/polyhedron"
+}
 STAGES = (FALLING, AT_REST) = ("falling", "at rest")
 BOUNCE_STEPS = 50_000  # of a twentieth of the time step
-# Lines of a whole scene, about: examples/first_pile.py, and for the others that with what shape, mass and walls take here and in studies
-# (docs/scenes.md).
+# Lines of a whole scene, about: examples/first_pile.py, and for the others that with what shape, mass and walls take
+# here and in studies (docs/scenes.md).
 LINES = {OURS: 18, POTENTIAL: 85, POLYHEDRA: 30, LEVEL_SET: 55, LAMMPS: 60}
 
 
@@ -52,7 +56,8 @@ class Effort:
 
     def steps(self, kind, count):
         """Steps of a window."""
-        return {OURS: 60 if count <= 200 else 20, LAMMPS: 20 if count <= 200 and not self.quick else 5, POTENTIAL: 2}.get(kind, 4)
+        return {OURS: 60 if count <= 200 else 20, LAMMPS: 20 if count <= 200 and not self.quick else 5,
+                POTENTIAL: 2}.get(kind, 4)
 
 
 def rows(found, quick):
@@ -69,8 +74,10 @@ def rows(found, quick):
     for count in effort.counts:
         files = [FOLDER / f"{count}_{stage.replace(' ', '_')}{'_quick' if quick else ''}.npz" for stage in STAGES]
         print(f"  {count} pyramids fall", flush=True)
-        yade({"kind": OURS, "count": count, "task": "fall", "falling_step": effort.falling_step, "settle": effort.settle,
-              "save": [str(file) for file in files]})
+        yade({
+            "kind": OURS, "count": count, "task": "fall", "falling_step": effort.falling_step, "settle": effort.settle,
+            "save": [str(file) for file in files]
+        })
         for stage, file in zip(STAGES, files):
             if stage not in effort.stages:
                 continue
@@ -81,7 +88,8 @@ def rows(found, quick):
                     continue
                 print(f"  {count} {stage}: {LABELS[kind]}", flush=True)
                 row = one(kind, count, stage, file, effort, found)
-                row.update(kind=kind, label=LABELS[kind], count=count, stage=stage, lines=LINES[kind], **errors.get(kind, {}))
+                row.update(kind=kind, label=LABELS[kind], count=count, stage=stage, lines=LINES[kind],
+                           **errors.get(kind, {}))
                 if row.get("fastest_ms"):
                     row["body_steps_per_second"] = 1e3 * count / row["fastest_ms"]
                 result.append(row)
@@ -92,8 +100,11 @@ def one(kind, count, stage, file, effort, found):
     try:
         if kind == LAMMPS:
             return lammps(file, count, stage, effort, found.commands[LAMMPS])
-        return yade({"kind": kind, "count": count, "task": "windows", "start": str(file), "settle": effort.before(kind, count, stage),
-                     "seconds": effort.seconds, "windows": effort.windows, "steps": effort.steps(kind, count)})
+        return yade({
+            "kind": kind, "count": count, "task": "windows", "start": str(file),
+            "settle": effort.before(kind, count, stage), "seconds": effort.seconds, "windows": effort.windows,
+            "steps": effort.steps(kind, count)
+        })
     except (RuntimeError, OSError, subprocess.TimeoutExpired) as error:
         return {"missing": str(error)}
 
@@ -112,9 +123,11 @@ def yade(job):
     environment = dict(os.environ, JOB=json.dumps(dict(job, result=str(result))), OMP_WAIT_POLICY="passive",
                        PYTHONPATH=str(install.TOP / "yade-glue" / "build" / "python"))
     command = [install.YADE_PROGRAM, "-x", "-n", "-j1", install.HERE / "yade_pile.py"]
-    done = subprocess.run(list(map(str, command)), env=environment, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=1200)
+    done = subprocess.run(list(map(str, command)), env=environment, stdin=subprocess.DEVNULL, capture_output=True,
+                          text=True, timeout=1200)
     if not result.exists():
-        raise RuntimeError(f"no result: {done.stdout.strip().splitlines()[-1:]} {done.stderr.strip().splitlines()[-1:]}")
+        raise RuntimeError(
+            f"no result: {done.stdout.strip().splitlines()[-1:]} {done.stderr.strip().splitlines()[-1:]}")
     return json.loads(result.read_text())
 
 
@@ -126,11 +139,14 @@ def lammps(file, count, stage, effort, command):
     states = dict(np.load(file))
     pile.write(FOLDER, states, (shape["half_width"], shape["height"]))
     steps = effort.steps(LAMMPS, count)
-    seconds, table = pile.run(FOLDER, command, shape["half_width"], steps, effort.windows + effort.before(LAMMPS, count, stage) // steps)
+    seconds, table = pile.run(FOLDER, command, shape["half_width"], steps,
+                              effort.windows + effort.before(LAMMPS, count, stage) // steps)
     timed = np.array(seconds[-effort.windows:]) / steps * 1e3
     _, kept, kinetic, _ = table[-1]
-    return {"bodies": count, "fastest_ms": float(timed.min()), "median_ms": float(np.median(timed)), "lost": count - int(kept),
-            "kinetic_J": kinetic}
+    return {
+        "bodies": count, "fastest_ms": float(timed.min()), "median_ms": float(np.median(timed)),
+        "lost": count - int(kept), "kinetic_J": kinetic
+    }
 
 
 def _faces(core):
@@ -156,12 +172,17 @@ def targets(piles):
         if ours is None:
             continue
         ratio = peer["fastest_ms"] / ours if peer else None
-        found.append({"name": f"{count:,} pyramids {stage}: step of the fastest peer / ours", "sense": "at least", "target": 1.0,
-                      "measured": ratio, "met": None if ratio is None else ratio >= 1.0, "peer": peer["label"] if peer else None})
+        found.append({
+            "name": f"{count:,} pyramids {stage}: step of the fastest peer / ours", "sense": "at least", "target": 1.0,
+            "measured": ratio, "met": None if ratio is None else ratio >= 1.0, "peer": peer["label"] if peer else None
+        })
     mine = [row for row in known if row["kind"] == OURS]
     lost = sum(row["lost"] + (row["failures"] or 0) for row in mine)
     if mine:
-        found.append({"name": "our piles: bodies lost, and failures", "sense": "at most", "target": 0, "measured": lost, "met": lost == 0})
+        found.append({
+            "name": "our piles: bodies lost, and failures", "sense": "at most", "target": 0, "measured": lost,
+            "met": lost == 0
+        })
     return found
 
 
@@ -171,11 +192,17 @@ def table(piles):
     lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
     for row in piles:
         if row.get("missing"):
-            lines.append(f"| {row.get('count', '')} | {row['label']} | {row.get('stage', '')} | not measured: {row['missing']} | | | | | | |")
+            lines.append(
+                f"| {row.get('count', '')} | {row['label']} | {row.get('stage', '')} | not measured: {row['missing']} | | | | | | |"
+            )
             continue
         error = row.get("energy_error")
-        cells = [f"{row['count']:,}", row["label"], row["stage"] + ("" if row.get("settled", True) else " *"), f"{row['fastest_ms']:.3g}",
-                 f"{row['body_steps_per_second']:,.0f}", f"{row['contacts']:,}" if "contacts" in row else "–", str(row["lost"]),
-                 f"{row['kinetic_J']:.2g}", "–" if error is None else f"{error:.1e} ({row['bounces']})", str(row["lines"])]
+        cells = [
+            f"{row['count']:,}", row["label"], row["stage"] + ("" if row.get("settled", True) else " *"),
+            f"{row['fastest_ms']:.3g}", f"{row['body_steps_per_second']:,.0f}",
+            f"{row['contacts']:,}" if "contacts" in row else "–",
+            str(row["lost"]), f"{row['kinetic_J']:.2g}", "–" if error is None else f"{error:.1e} ({row['bounces']})",
+            str(row["lines"])
+        ]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)

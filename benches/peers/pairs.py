@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The pairs that all contestants get: one text file of numbers, and the exact answers of those who measure distance or depth.
+"""The pairs that all contestants get: one text file of numbers, and the exact answers of those who measure distance or
+depth.
 
-Of each group: planes, corners and triangles of its body, and for each pair some poses of a smooth motion, as from step to step
-of a simulation. Bodies have size about 1.
+Of each group: planes, corners and triangles of its body, and for each pair some poses of a smooth motion, as from step
+to step of a simulation. Bodies have size about 1.
 """
 
 from dataclasses import dataclass, field, replace
@@ -19,9 +20,11 @@ STEP = 5e-5  # move and turn from one pose to the next
 POSES = 6
 TILT = 1e-4  # radians, of faces that lie on each other
 SHARP, ROUNDED, POTENTIAL, CHUNKY = "sharp", "rounded", "potential", "chunky"
-# How the same body is written down: r of our potential particle, its k, and the radius of the ball that is swept by the others.
+# How the same body is written down: r of our potential particle, its k, and the radius of the ball that is swept by the
+# others.
 ROUNDING = {SHARP: (1e-3, 0.0, 0.0), ROUNDED: (0.05, 0.0, 0.05), POTENTIAL: (0.05, 0.02, 0.05)}
-# Smoothed by log(sum of exp(beta x))/beta, beta = 20, the edge of a box lies ln(2)/20 = 3.5 % deeper, 0.02 of the size; so it does with r = 0.07.
+# Smoothed by log(sum of exp(beta x))/beta, beta = 20, the edge of a box lies ln(2)/20 = 3.5 % deeper, 0.02 of the size;
+# so it does with r = 0.07.
 ROUNDING[CHUNKY] = (0.07, 0.02, 0.07)
 TOUCHING, LYING, NEAR_BY, FAR = "touching", "lying", "near", "far"
 
@@ -77,9 +80,12 @@ def _first_poses(finished, core, swept, place, random):
 
 
 def _touch(a, b, way):
-    """How far b goes along `way` before it only touches a, and the normal there: a linear program in x and the distance."""
+    """How far b goes along `way` before it only touches a, and the normal there: a linear program in x and the
+    distance.
+    """
     rows = np.block([[a.normals, np.zeros((len(a.normals), 1))], [b.normals, -(b.normals @ way)[:, None]]])
-    found = linprog([0, 0, 0, -1], A_ub=rows, b_ub=np.concatenate([a.offsets, b.offsets]), bounds=[(None, None)] * 4, method="highs")
+    found = linprog([0, 0, 0, -1], A_ub=rows, b_ub=np.concatenate([a.offsets, b.offsets]), bounds=[(None, None)] * 4,
+                    method="highs")
     pull = -found.ineqlin.marginals[: len(a.normals)] @ a.normals
     return found.x[3], pull / np.linalg.norm(pull)
 
@@ -112,7 +118,9 @@ def _direction(random):
 
 
 def moved(one, shifts):
-    """The same group with B elsewhere: for bodies that are rounded otherwise, and so touch at other poses. shifts: (pairs, 3)."""
+    """The same group with B elsewhere: for bodies that are rounded otherwise, and so touch at other poses. shifts:
+    (pairs, 3).
+    """
     poses_b = [[(position + shift, turn) for position, turn in motion] for motion, shift in zip(one.poses_b, shifts)]
     return replace(one, poses_b=poses_b)
 
@@ -152,11 +160,13 @@ def _numbers(pose):
 def cores(one, pair):
     """Those of A and B at the last pose, from the centre of A."""
     (position_a, turn_a), (position_b, turn_b) = one.poses_a[pair], one.poses_b[pair][-1]
-    return one.core.placed(np.zeros(3), turn_a.as_matrix()), one.core.placed(position_b - position_a, turn_b.as_matrix())
+    return one.core.placed(np.zeros(3), turn_a.as_matrix()), one.core.placed(position_b - position_a,
+                                                                             turn_b.as_matrix())
 
 
 def exact(one, pair):
-    """At the last pose: what is to be found by those who measure distance and depth of the swept cores; > 0: overlap."""
+    """At the last pose: what is to be found by those who measure distance and depth of the swept cores; > 0: overlap.
+    """
     a, b = cores(one, pair)
     if one.place != FAR and one.swept == 0 and one.place in (TOUCHING, LYING):
         return penetration(a, b)[0]

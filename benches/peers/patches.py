@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Contact patches beside Drake's hydroelastic contact: the same bodies at the same depth, both against closed forms.
 
-Both have a pressure field in each body and press on each other where the two are equal. Drake's is E times the depth over the largest depth of the body,
-linear in each tetrahedron of a mesh; a potential particle's is K (ℓ_A + ℓ_B)(1 − s). E is chosen for each body such that both rise from its surface at the
+Both have a pressure field in each body and press on each other where the two are equal. Drake's is E times the depth
+over the largest depth of the body, linear in each tetrahedron of a mesh; a potential particle's is K (ℓ_A + ℓ_B)(1 −
+s). E is chosen for each body such that both rise from its surface at the
 same rate: E/(largest depth) = K (ℓ_A + ℓ_B)/ℓ. On faces, and in spheres but for the mesh, the fields are then the same.
 """
 
@@ -19,7 +20,7 @@ import install
 from contestants import DRAKE, OURS
 
 TOLERANCE = 1e-4  # of our patch: what laws take
-ROUNDING = 2e-4  # of the boxes that meet with their edges; sharp boxes, of which the closed forms are, differ by about that
+ROUNDING = 2e-4  # of the boxes that meet with their edges; the closed forms, of sharp boxes, differ by about that
 DEPTH = 1e-4
 HINTS = (0.2, 0.1, 0.05, 0.025, 0.0125)  # Drake's resolution of a sphere of radius 0.5
 NEAR_ENOUGH = 0.01  # error of a force with which a time counts
@@ -45,7 +46,9 @@ class Body:
 
 @dataclass(frozen=True)
 class Case:
-    """The upper body on the lower one; force and torque are those on the upper body, the torque about a point, all for K = 1."""
+    """The upper body on the lower one; force and torque are those on the upper body, the torque about a point, all for
+    K = 1.
+    """
 
     name: str
     lower: Body
@@ -71,7 +74,9 @@ class Case:
 
 
 def face(side, depth, angle):
-    """Force, moment and area of a bed of stiffness 1 under a square that is pressed in by a depth at its middle and tilted by an angle."""
+    """Force, moment and area of a bed of stiffness 1 under a square that is pressed in by a depth at its middle and
+    tilted by an angle.
+    """
     reach = min(0.5 * side, depth / np.tan(angle)) if angle else 0.5 * side
     # The pressure is depth + tan(angle) x from -reach to side/2.
     ends = np.array([-reach, 0.5 * side])
@@ -94,11 +99,14 @@ def pressed(name, lower, half, angle):
     normal = turn.apply([0, 0, 1.0]) if lower.kind == "box" else np.array([0, 0, 1.0])
     # Between two beds of equal stiffness the patch halves the angle.
     normal = (normal + [0, 0, 1]) / np.linalg.norm(normal + [0, 0, 1])
-    return Case(name, lower, Body("box", half, ROUNDING), tuple(position), quaternion, about, force * normal, np.array([0, -moment, 0]), area)
+    return Case(name, lower, Body("box", half, ROUNDING), tuple(position), quaternion, about, force * normal,
+                np.array([0, -moment, 0]), area)
 
 
 def round_on(name, lower, radius, overlap, aside):
-    """A ball on a ball or on the middle of a face, by quadrature over the distance from the axis; the torque about the origin."""
+    """A ball on a ball or on the middle of a face, by quadrature over the distance from the axis; the torque about the
+    origin.
+    """
     upper = Body("ball", radius)
     top = lower.size
     height = top + radius - overlap
@@ -115,7 +123,8 @@ def round_on(name, lower, radius, overlap, aside):
         return 1 - np.linalg.norm(away) / radius, -away / (radius * np.linalg.norm(away))
 
     def level(rho):
-        return brentq(lambda z: of_lower(rho, z)[0] - of_upper(rho, z)[0], height - radius - overlap, top + overlap, xtol=1e-15)
+        return brentq(lambda z: of_lower(rho, z)[0] - of_upper(rho, z)[0], height - radius - overlap, top + overlap,
+                      xtol=1e-15)
 
     def terms(rho):
         z = level(rho)
@@ -154,13 +163,15 @@ def rows(found, quick):
     answers = _ask([install.program("patches"), path, TOLERANCE, seconds])
     made = []
     for case, (force, torque, area, estimate, cold, carried) in zip(listed, answers):
-        made.append(_row(case, OURS, None, force, torque, area, cold, carried_microseconds=1e6 * carried, estimate=estimate))
+        made.append(
+            _row(case, OURS, None, force, torque, area, cold, carried_microseconds=1e6 * carried, estimate=estimate))
     if DRAKE in found.commands:
         python = found.commands[DRAKE][0]
         asked = json.dumps([_for_drake(case, quick) for case in listed])
         for case, answers in zip(listed, _ask([python, install.HERE / "drake_patches.py", asked, seconds])):
             for hint, (force, torque, at_middles, area, polygons, cold) in zip(case.hints, answers):
-                made.append(_row(case, DRAKE, hint, force, torque, area, cold, polygons=polygons, torque_at_middles=at_middles))
+                made.append(
+                    _row(case, DRAKE, hint, force, torque, area, cold, polygons=polygons, torque_at_middles=at_middles))
     return sorted(made, key=lambda row: [case.name for case in listed].index(row["case"]))
 
 
@@ -172,11 +183,15 @@ def _line(case):
 def _for_drake(case, quick):
     bodies = [[body.kind, body.size, case.modulus(body)] for body in (case.lower, case.upper)]
     lower = [0.0, 0.0, 0.0]
-    return {"bodies": bodies, "poses": [[lower, STRAIGHT], [case.position, case.turn]], "about": case.about, "hints": case.hints[: 3 if quick else None]}
+    return {
+        "bodies": bodies, "poses": [[lower, STRAIGHT], [case.position, case.turn]], "about": case.about,
+        "hints": case.hints[:3 if quick else None]
+    }
 
 
 def _ask(command):
-    lines = subprocess.run([str(part) for part in command], check=True, capture_output=True, text=True).stdout.splitlines()
+    lines = subprocess.run([str(part) for part in command], check=True, capture_output=True,
+                           text=True).stdout.splitlines()
     return [json.loads(line) for line in lines]
 
 
@@ -185,9 +200,17 @@ def _row(case, program, hint, force, torque, area, seconds, **more):
     # Half the patch's width is the arm of the torque's error.
     arm = 0.5 * np.sqrt(case.area)
     return {
-        "case": case.name, "program": program, "hint": hint, "force": force, "torque": torque, "area": area, "microseconds": 1e6 * seconds,
-        "force_error": np.linalg.norm(force - case.force) / size, "torque_error": np.linalg.norm(torque - case.torque) / (size * arm),
-        "area_error": abs(area / case.area - 1), **more,
+        "case": case.name,
+        "program": program,
+        "hint": hint,
+        "force": force,
+        "torque": torque,
+        "area": area,
+        "microseconds": 1e6 * seconds,
+        "force_error": np.linalg.norm(force - case.force) / size,
+        "torque_error": np.linalg.norm(torque - case.torque) / (size * arm),
+        "area_error": abs(area / case.area - 1),
+        **more,
     }
 
 
@@ -198,22 +221,31 @@ def targets(made):
         of_case = [row for row in made if row["case"] == name]
         ours = next(row for row in of_case if row["program"] == OURS)
         error = max(ours["force_error"], ours["torque_error"])
-        found.append({"name": f"patch, {name}: our force and torque against the closed form", "sense": "at most", "target": 1e-3, "measured": error, "met": bool(error <= 1e-3)})
+        found.append({
+            "name": f"patch, {name}: our force and torque against the closed form", "sense": "at most", "target": 1e-3,
+            "measured": error, "met": bool(error <= 1e-3)
+        })
         drakes = [row for row in of_case if row["program"] == DRAKE]
         if not drakes:
             continue
         near = [row for row in drakes if max(row["force_error"], row["torque_error"]) <= NEAR_ENOUGH]
         ratio = min(row["microseconds"] for row in near) / ours["microseconds"] if near else None
-        found.append({"name": f"patch, {name}: Drake within {NEAR_ENOUGH:.0%} / ours, time from nothing", "sense": "at least", "target": 1.0,
-                      "measured": ratio, "met": None if ratio is None else bool(ratio >= 1.0)})
+        found.append({
+            "name": f"patch, {name}: Drake within {NEAR_ENOUGH:.0%} / ours, time from nothing", "sense": "at least",
+            "target": 1.0, "measured": ratio, "met": None if ratio is None else bool(ratio >= 1.0)
+        })
     return found
 
 
 def table(made):
-    lines = ["| bodies | code | polygons | error of the force | of the torque | of the area | a call, µs |", "|---|---|---|---|---|---|---|"]
+    lines = [
+        "| bodies | code | polygons | error of the force | of the torque | of the area | a call, µs |",
+        "|---|---|---|---|---|---|---|"
+    ]
     for row in made:
         label = "ours" if row["program"] == OURS else "Drake" + (f", hint {row['hint']}" if row["hint"] else "")
         errors = " | ".join(f"{row[key]:.1e}" for key in ("force_error", "torque_error", "area_error"))
-        time = f"{row['microseconds']:.1f}" + (f"; carried on {row['carried_microseconds']:.2f}" if row["program"] == OURS else "")
+        time = f"{row['microseconds']:.1f}" + (f"; carried on {row['carried_microseconds']:.2f}"
+                                               if row["program"] == OURS else "")
         lines.append(f"| {row['case']} | {label} | {row.get('polygons', '–')} | {errors} | {time} |")
     return "\n".join(lines)

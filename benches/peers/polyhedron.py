@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Convex polyhedra with their faces, corners and edges, and the exact distance or penetration depth of two of them.
 
-Independent of every contestant: closest features are found by trying all that can matter, and the answer is checked from both
-sides (a pair of points bounds a distance from above, a direction from below). Lengths in one unit, bodies of size 1.
+Independent of every contestant: closest features are found by trying all that can matter, and the answer is checked
+from both sides (a pair of points bounds a distance from above, a direction from below). Lengths in one unit, bodies of
+size 1.
 """
 
 import numpy as np
@@ -88,8 +89,9 @@ def named(planes):
 
 
 def chunky(planes):
-    """The box 1.6 x 1.2 x 1.0 with planes - 6 chips, as in iDCOL's benchmarks: their normals from Halton's sequence, each at 85 % of how far the box
-    reaches along it."""
+    """The box 1.6 x 1.2 x 1.0 with planes - 6 chips, as in iDCOL's benchmarks: their normals from Halton's sequence,
+    each at 85 % of how far the box reaches along it.
+    """
     half = np.array([0.8, 0.6, 0.5])
     count = planes - 6
     z, turn = 2.0 * _halton(count, 2) - 1.0, 2.0 * np.pi * _halton(count, 3)
@@ -114,8 +116,8 @@ def _halton(count, base):
 def penetration(a, b, rows=200):
     """(depth, direction from a to b): the least translation that parts two bodies that meet.
 
-    h_a(n) + h_b(-n) is an upper bound of it for every unit n, and some face normal or cross product of two edges attains it.
-    Only edges that come as near to the other body as the best face says can take part.
+    h_a(n) + h_b(-n) is an upper bound of it for every unit n, and some face normal or cross product of two edges
+    attains it. Only edges that come as near to the other body as the best face says can take part.
     """
     candidates = np.vstack([a.normals, -b.normals])
     depths = _depths(a, b, candidates)

@@ -16,10 +16,19 @@ COUNTED = {"cold": "midway", "warm": "carried"}
 EDGES = {SHARP: "sharp", ROUNDED: "rounded, k = 0", POTENTIAL: "rounded, k = 0.02", CHUNKY: "chunky, k = 0.02"}
 PLACES = {TOUCHING: "touching", LYING: "face on face", NEAR_BY: "near", FAR: "far"}
 COLUMNS = (
-    ("parry", "contact"), ("coal", "contact"), ("coal", "contact-nesterov"), ("bullet", "contact"), ("mujoco", "contact"), ("drake", "contact"), ("ours", "cone_program"),
-    ("yade", "potential"), ("yade", "polyhedra"), ("yade", "levelset"),
+    ("parry", "contact"),
+    ("coal", "contact"),
+    ("coal", "contact-nesterov"),
+    ("bullet", "contact"),
+    ("mujoco", "contact"),
+    ("drake", "contact"),
+    ("ours", "cone_program"),
+    ("yade", "potential"),
+    ("yade", "polyhedra"),
+    ("yade", "levelset"),
 )
-HEADS = ("parry", "Coal", "Coal, Nesterov", "Bullet", "MuJoCo", "Drake", "clarabel", "PotentialParticle", "Polyhedra", "LevelSet")
+HEADS = ("parry", "Coal", "Coal, Nesterov", "Bullet", "MuJoCo", "Drake", "clarabel", "PotentialParticle", "Polyhedra",
+         "LevelSet")
 LEAST_ERROR, MOST_ERROR = 1e-17, 1.0  # where an error of nothing is drawn; where the picture ends
 
 
@@ -36,8 +45,13 @@ def targets(rows):
             ratio = rival["microseconds"] / ours if rival else None
             found.append({
                 "name": f"{describe(of_group[0])}, {'from nothing' if warmth == 'cold' else 'from memory'}: fastest peer / ours",
-                "sense": "at least", "target": 1.0, "measured": ratio, "met": None if ratio is None else ratio >= 1.0,
-                "peer": rival["label"] if rival else None, "group": group, "warmth": warmth,
+                "sense": "at least",
+                "target": 1.0,
+                "measured": ratio,
+                "met": None if ratio is None else ratio >= 1.0,
+                "peer": rival["label"] if rival else None,
+                "group": group,
+                "warmth": warmth,
             })
     return found + soundness(rows)
 
@@ -52,7 +66,8 @@ def soundness(rows):
         ("our contacts missed or made up", count("wrong"), 0),
         ("our worst error of the overlap, of the size", worst, 1e-9),
     )
-    return [{"name": name, "sense": "at most", "target": limit, "measured": value, "met": value <= limit} for name, value, limit in limits]
+    return [{"name": name, "sense": "at most", "target": limit, "measured": value, "met": value <= limit}
+            for name, value, limit in limits]
 
 
 def describe(row):
@@ -61,7 +76,10 @@ def describe(row):
 
 def pair_table(rows):
     """Microseconds a call, cold / warm; the last columns: fastest peer over ours."""
-    lines = ["| planes | edges | place | ours: alone | ours: in a batch | " + " | ".join(HEADS) + " | peer/ours cold | warm |"]
+    lines = [
+        "| planes | edges | place | ours: alone | ours: in a batch | " + " | ".join(HEADS)
+        + " | peer/ours cold | warm |"
+    ]
     lines.append("|---|---|---|" + "---|" * (len(HEADS) + 4))
     judged = {(one.get("group"), one.get("warmth")): one["measured"] for one in targets(rows)}
     for group in _unique(row["group"] for row in rows):
@@ -99,7 +117,8 @@ def contestant_table(rows, found):
         worst = max((row["worst_error"] for row in of_one if row["worst_error"] is not None), default=None)
         total = lambda key: sum(row[key] for row in of_one)
         error = "–" if worst is None else f"{worst:.1e}, {of_one[0]['error_of']}"
-        lines.append("| " + " | ".join([*cells, error, *(str(total(key)) for key in ("failed", "wrong", "pairs"))]) + " |")
+        lines.append("| " + " | ".join([*cells, error, *(str(total(key))
+                                                         for key in ("failed", "wrong", "pairs"))]) + " |")
     return "\n".join(lines)
 
 
@@ -121,7 +140,8 @@ def draw(rows, curves, line, path):
                 _dot(panel, row, colours[row["label"]])
         for label, warmth in _unique((one["label"], one["warmth"]) for one in curves if one["group"] == name):
             points = sorted((max(one["worst_error"], LEAST_ERROR), one["microseconds"]) for one in curves
-                            if (one["group"], one["label"], one["warmth"]) == (name, label, warmth) and one["worst_error"] is not None)
+                            if (one["group"], one["label"],
+                                one["warmth"]) == (name, label, warmth) and one["worst_error"] is not None)
             panel.plot(*zip(*points), "-" if warmth == "warm" else ":", color=colours.get(label, "grey"), linewidth=1)
         panel.set_xlabel("worst error, against its own exact answer, of the size")
         panel.set_title(describe(next(row for row in rows if row["group"] == name)), fontsize=10)
@@ -138,13 +158,15 @@ def draw(rows, curves, line, path):
 
 def _dot(panel, row, colour):
     error = max(row["worst_error"], LEAST_ERROR)
-    panel.plot(error, row["microseconds"], "o", color=colour, markerfacecolor=colour if row["warmth"] == "warm" else "none")
+    panel.plot(error, row["microseconds"], "o", color=colour,
+               markerfacecolor=colour if row["warmth"] == "warm" else "none")
 
 
 def _both(rows, program, way):
     times = [_time([row for row in rows if row["warmth"] == warmth], program, way) for warmth in ("cold", "warm")]
     if times == [None, None]:
-        return next((row["why"] for row in rows if (row["program"], row["way"]) == (program, way) and row.get("why")), "–")
+        return next((row["why"] for row in rows if (row["program"], row["way"]) == (program, way) and row.get("why")),
+                    "–")
     return " / ".join("–" if value is None else digits(value) for value in times)
 
 
@@ -154,7 +176,10 @@ def _time(rows, program, way):
 
 def _fastest(rows):
     """Of those that answer the same question without failures or wrong answers."""
-    sound = [row for row in rows if row["rival"] and row["microseconds"] is not None and not row["failed"] and not row["wrong"]]
+    sound = [
+        row for row in rows
+        if row["rival"] and row["microseconds"] is not None and not row["failed"] and not row["wrong"]
+    ]
     return min(sound, key=lambda row: row["microseconds"], default=None)
 
 

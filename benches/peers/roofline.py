@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What limits a call from memory, and a step of a pile at rest: instructions, arithmetic, bytes, or results that wait for each other.
+"""What limits a call from memory, and a step of a pile at rest: instructions, arithmetic, bytes, or results that wait
+for each other.
 
     benches/peers/roofline.py
 
@@ -33,17 +34,20 @@ STATES = install.OUT / "piles" / "200_at_rest.npz"
 TOOLS = ("valgrind", "binutils", "gdb", "llvm", "python3-matplotlib")
 # Group of pairs, what it is called, and how many pairs a pass has.
 GROUPS = (
-    ("5-sharp-touching", "5 planes, sharp, touching", 100), ("5-rounded-touching", "5 planes, k = 0, touching", 100),
-    ("5-potential-touching", "5 planes, k = 0.02, touching", 100), ("100-potential-touching", "100 planes, k = 0.02, touching", 100),
-    ("5-sharp-near", "5 planes, sharp, near", 100), ("1000-potential-near", "1,000 planes, k = 0.02, near", 30),
+    ("5-sharp-touching", "5 planes, sharp, touching", 100),
+    ("5-rounded-touching", "5 planes, k = 0, touching", 100),
+    ("5-potential-touching", "5 planes, k = 0.02, touching", 100),
+    ("100-potential-touching", "100 planes, k = 0.02, touching", 100),
+    ("5-sharp-near", "5 planes, sharp, near", 100),
+    ("1000-potential-near", "1,000 planes, k = 0.02, near", 30),
 )
 # Ways to call: name of the way, what it is called, part of the symbol of what each call runs once.
 WAYS = (("midway", "alone", "detect6detect17"), ("carried", "in a batch", "batch8carry_on17"))
 PASSES = 20  # of one request: two walks through six poses, to and fro
 SECONDS, TRIALS = 0.5, 5
-LEAST_SHARE = 0.8  # of the cycles of a call, that its highest limit accounts for: what is left to win without other mathematics
-# Zen 3 and 4, a cycle: six instructions, four of floating point, three loads, two stores, 32 bytes from the second cache; a division
-# takes the divider five cycles, a root nine.
+LEAST_SHARE = 0.8  # of the cycles of a call, that its highest limit accounts for
+# Zen 3 and 4, a cycle: six instructions, four of floating point, three loads, two stores, 32 bytes from the second
+# cache; a division takes the divider five cycles, a root nine.
 LIMITS = {
     "instructions": lambda count: count["instructions"] / 6,
     "arithmetic": lambda count: count["arithmetic"] / 4,
@@ -78,8 +82,10 @@ def main():
     calls = [row for group in GROUPS for row in measured([*command, PAIRS], cycle, *group)]
     step = of_step()
     line = f"{machine.machine_line()}, {1 / cycle:.2f} GHz, {machine.now()}"
-    summary = {"machine": machine.machine_line(), "date": machine.now(), "command": "make roofline", "nanoseconds_a_cycle": cycle,
-               "calls": calls, "step": step, "targets": [target(row) for row in calls]}
+    summary = {
+        "machine": machine.machine_line(), "date": machine.now(), "command": "make roofline",
+        "nanoseconds_a_cycle": cycle, "calls": calls, "step": step, "targets": [target(row) for row in calls]
+    }
     write_summary(OUT / "summary.json", summary)
     (OUT / "table.md").write_text("\n\n".join([f"*{line}*", call_table(calls), step_table(step)]) + "\n")
     draw(calls, line)
@@ -88,8 +94,10 @@ def main():
 
 
 def target(row):
-    return {"name": f"{row['bodies']}, {row['way']}: highest limit / measured", "sense": "at least", "target": LEAST_SHARE, "measured": row["share"],
-            "met": row["share"] >= LEAST_SHARE}
+    return {
+        "name": f"{row['bodies']}, {row['way']}: highest limit / measured", "sense": "at least", "target": LEAST_SHARE,
+        "measured": row["share"], "met": row["share"] >= LEAST_SHARE
+    }
 
 
 def measured(command, cycle, group, label, pairs):
@@ -103,10 +111,17 @@ def measured(command, cycle, group, label, pairs):
         limits[WAITING] = latency.cycles(command, f"{request} 0", function, count["instructions"])
         highest = max(limits, key=limits.get)
         yield {
-            "bodies": label, "way": called, "counts": count, "nanoseconds": nanoseconds, "cycles": nanoseconds / cycle, "limits": limits,
-            "highest": highest, "share": limits[highest] * cycle / nanoseconds,
+            "bodies": label,
+            "way": called,
+            "counts": count,
+            "nanoseconds": nanoseconds,
+            "cycles": nanoseconds / cycle,
+            "limits": limits,
+            "highest": highest,
+            "share": limits[highest] * cycle / nanoseconds,
             # Each call waits for the answer of the one before, if calls alone are at issue.
-            "one_after_the_other": _shortest(command, f"time {group} {way}+wait warm {SECONDS}") if way == "midway" else None,
+            "one_after_the_other": _shortest(command, f"time {group} {way}+wait warm {SECONDS}")
+                                   if way == "midway" else None,
         }
 
 
@@ -120,9 +135,12 @@ def of_step():
     print("  a step of 200 pyramids at rest", flush=True)
     with tempfile.TemporaryDirectory() as folder:
         result = Path(folder) / "result"
-        job = {"kind": "ours", "count": 200, "task": "windows", "start": str(STATES), "settle": SETTLE, "seconds": 3600, "windows": 2, "steps": STEPS,
-               "result": str(result)}
-        environment = dict(os.environ, JOB=json.dumps(job), OMP_WAIT_POLICY="passive", PYTHONPATH=str(install.TOP / "yade-glue" / "build" / "python"))
+        job = {
+            "kind": "ours", "count": 200, "task": "windows", "start": str(STATES), "settle": SETTLE, "seconds": 3600,
+            "windows": 2, "steps": STEPS, "result": str(result)
+        }
+        environment = dict(os.environ, JOB=json.dumps(job), OMP_WAIT_POLICY="passive",
+                           PYTHONPATH=str(install.TOP / "yade-glue" / "build" / "python"))
         command = ["/usr/bin/python3", str(install.YADE_PROGRAM), "-x", "-n", "-j1", str(install.HERE / "yade_pile.py")]
         found = counts.of_functions(command, environment, STEP, FUNCTIONS)
         run = json.loads(result.read_text())
@@ -132,27 +150,39 @@ def of_step():
 
 def call_table(calls):
     """Measured cycles, counts, and the least number of cycles by each limit."""
-    lines = ["| bodies | call | cycles, measured | instructions | divisions, roots | bytes from the second cache | " + " | ".join(f"least: {name}" for name in ALL_LIMITS)
-             + " | highest / measured | each after the other |",
-             "|---" * (8 + len(ALL_LIMITS)) + "|"]
+    lines = [
+        "| bodies | call | cycles, measured | instructions | divisions, roots | bytes from the second cache | "
+        + " | ".join(f"least: {name}" for name in ALL_LIMITS) + " | highest / measured | each after the other |",
+        "|---" * (8 + len(ALL_LIMITS)) + "|"
+    ]
     for row in calls:
         count = row["counts"]
         misses = counts.LINE * (count["load misses"] + count["store misses"] + count["code misses"])
-        limits = [f"**{row['limits'][name]:,.0f}**" if name == row["highest"] else f"{row['limits'][name]:,.0f}" for name in ALL_LIMITS]
+        limits = [
+            f"**{row['limits'][name]:,.0f}**" if name == row["highest"] else f"{row['limits'][name]:,.0f}"
+            for name in ALL_LIMITS
+        ]
         waits = row["one_after_the_other"]
-        cells = [row["bodies"], row["way"], f"{row['cycles']:,.0f}", f"{count['instructions']:,.0f}", f"{count['divisions']:.0f}, {count['roots']:.0f}",
-                 f"{misses:,.0f}", *limits, f"{row['share']:.2f}", f"{waits / row['nanoseconds']:.2f}" if waits else "–"]
+        cells = [
+            row["bodies"], row["way"], f"{row['cycles']:,.0f}", f"{count['instructions']:,.0f}",
+            f"{count['divisions']:.0f}, {count['roots']:.0f}", f"{misses:,.0f}", *limits, f"{row['share']:.2f}",
+            f"{waits / row['nanoseconds']:.2f}" if waits else "–"
+        ]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
 
 
 def step_table(step):
     whole = step["functions"]["step"]["instructions"]
-    lines = [f"200 pyramids at rest: {step['contacts']} contacts, {step['pairs']} pairs.", "",
-             "| part of a step | instructions | share | lines of code fetched anew | lines of data |", "|---|---|---|---|---|"]
+    lines = [
+        f"200 pyramids at rest: {step['contacts']} contacts, {step['pairs']} pairs.", "",
+        "| part of a step | instructions | share | lines of code fetched anew | lines of data |",
+        "|---|---|---|---|---|"
+    ]
     for name, count in step["functions"].items():
-        lines.append(f"| {name} | {count['instructions']:,.0f} | {count['instructions'] / whole:.0%} | {count['code misses']:,.0f} | "
-                     f"{count['load misses'] + count['store misses']:,.0f} |")
+        lines.append(
+            f"| {name} | {count['instructions']:,.0f} | {count['instructions'] / whole:.0%} | {count['code misses']:,.0f} | "
+            f"{count['load misses'] + count['store misses']:,.0f} |")
     return "\n".join(lines)
 
 

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Side by side with the codes a user would pick instead: pairs, patches, and piles. The contestants are installed first; then no network.
+"""Side by side with the codes a user would pick instead: pairs, patches, and piles.
+
+The contestants are installed first; then no network.
 
     benches/peers/run.py [--quick] [--only pairs|patches|piles]
 
@@ -26,14 +28,18 @@ from summary import print_table, write_summary
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--quick", action="store_true", help="a little of everything, in a minute")
-    arguments.add_argument("--only", choices=("pairs", "patches", "piles"), help="one of the parts; the others are left out of the results")
+    arguments.add_argument("--only", choices=("pairs", "patches", "piles"),
+                           help="one of the parts; the others are left out of the results")
     options = arguments.parse_args()
     started = time.perf_counter()
     print("Contestants", flush=True)
     found = install.everybody()
     line = f"{machine.machine_line()}, {machine.now()}"
-    summary = {"machine": machine.machine_line(), "date": machine.now(), "command": "make peers" + (" QUICK=1" if options.quick else ""),
-               "versions": found.versions, "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []}
+    summary = {
+        "machine": machine.machine_line(), "date": machine.now(),
+        "command": "make peers" + (" QUICK=1" if options.quick else ""), "versions": found.versions,
+        "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []
+    }
     parts = [f"*{line}; {summary['command']}*"]
     if options.only in (None, "pairs"):
         parts += pairs_part(found, options.quick, line, summary)
@@ -48,7 +54,8 @@ def main():
     summary["load_after"] = measure_pairs.load()
     write_results(parts, summary)
     print_targets(summary["targets"])
-    print_table([("time", f"{time.perf_counter() - started:.0f} s"), ("results", f"{install.OUT}: table.md, peers.png, summary.json")])
+    print_table([("time", f"{time.perf_counter() - started:.0f} s"),
+                 ("results", f"{install.OUT}: table.md, peers.png, summary.json")])
 
 
 def write_results(parts, summary):

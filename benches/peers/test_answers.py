@@ -1,6 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""What the other codes are judged by, against closed forms: distances and depths of boxes, volumes, and the placing of pairs.
+"""What the other codes are judged by, against closed forms: distances and depths of boxes, volumes, and the placing of
+pairs.
 
 Needs numpy and scipy only: no contestant, no network.
 """
@@ -63,8 +64,10 @@ class Bodies(unittest.TestCase):
                 turn = Rotation.random(random_state=random.integers(2**31)).as_matrix()
                 other = body.placed(0.3 * pairs._direction(random), turn)
                 depth, way = penetration(body, other)
-                self.assertAlmostEqual(distance(body, other.placed((depth + 1e-3) * way, np.eye(3)))[0], 1e-3, delta=1e-12)
-                self.assertAlmostEqual(penetration(body, other.placed((depth - 1e-3) * way, np.eye(3)))[0], 1e-3, delta=1e-12)
+                self.assertAlmostEqual(
+                    distance(body, other.placed((depth + 1e-3) * way, np.eye(3)))[0], 1e-3, delta=1e-12)
+                self.assertAlmostEqual(
+                    penetration(body, other.placed((depth - 1e-3) * way, np.eye(3)))[0], 1e-3, delta=1e-12)
 
 
 class Pairs(unittest.TestCase):

@@ -1,6 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""How instructions are told apart and traces are cut, on listings that are short enough to know the answer. Needs no tool."""
+"""How instructions are told apart and traces are cut, on listings that are short enough to know the answer. Needs no
+tool.
+"""
 
 import sys
 import tempfile
@@ -36,11 +38,12 @@ class Counts(unittest.TestCase):
         self.assertEqual(dict(total), {"instructions": 22, "loads": 3, "arithmetic": 5, "roots": 5})
 
     def test_kinds_of_instructions(self):
-        for name, pattern in (("mulsd", counts.ARITHMETIC), ("vfmadd231pd", counts.ARITHMETIC), ("subpd", counts.ARITHMETIC),
-                              ("divpd", counts.DIVISION), ("sqrtsd", counts.ROOT)):
+        for name, pattern in (("mulsd", counts.ARITHMETIC), ("vfmadd231pd", counts.ARITHMETIC),
+                              ("subpd", counts.ARITHMETIC), ("divpd", counts.DIVISION), ("sqrtsd", counts.ROOT)):
             self.assertTrue(pattern.match(name), name)
         for name in ("add", "movapd", "unpcklpd", "imul", "comisd"):
-            self.assertFalse(any(pattern.match(name) for pattern in (counts.ARITHMETIC, counts.DIVISION, counts.ROOT)), name)
+            self.assertFalse(any(pattern.match(name) for pattern in (counts.ARITHMETIC, counts.DIVISION, counts.ROOT)),
+                             name)
 
 
 class Latency(unittest.TestCase):

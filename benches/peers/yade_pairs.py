@@ -3,9 +3,11 @@
 
     PAIRS=pairs.txt HERE=benches/peers yade -x -n -j1 benches/peers/yade_pairs.py
 
-Ways: potential (Ig2_PP_PP_ScGeom, without contact area), polyhedra (the volume of intersection stands for the overlap), levelset.
-All pairs of a group are one scene, its interactions made by hand; the time is that of YADE's InteractionLoop by YADE's clock, so that
-the law and the loop are in it: less than a microsecond a pair. A call always starts from what the functor itself remembers.
+Ways: potential (Ig2_PP_PP_ScGeom, without contact area), polyhedra (the volume of intersection stands for the overlap),
+levelset. All pairs of a group are one scene, its interactions made by hand; the time is that of YADE's InteractionLoop
+by YADE's clock, so that
+the law and the loop are in it: less than a microsecond a pair. A call always starts from what the functor itself
+    remembers.
 """
 
 import json
@@ -96,8 +98,8 @@ class Scene:
         return found if measure > 0 else []
 
 
-# Turn and centroid of each of YADE's polyhedra, which keep their vertices about the centroid, along the principal axes; and the
-# bodies themselves, so that no identity is given twice.
+# Turn and centroid of each of YADE's polyhedra, which keep their vertices about the centroid, along the principal axes;
+# and the bodies themselves, so that no identity is given twice.
 OWN, KEPT = {}, []
 
 
@@ -157,7 +159,8 @@ POLYHEDRAL = yade.PolyhedraMat(young=1e7, poisson=0.3, frictionAngle=0.3, densit
 
 
 def main():
-    yade.log.setDefaultLogLevel(1)  # fatal errors only: some functors write a line a call, which takes longer than the call
+    yade.log.setDefaultLogLevel(
+        1)  # fatal errors only: some functors write a line a call, which takes longer than the call
     groups = pair_file.read(os.environ["PAIRS"])
     kept = (None, None)
     for line in sys.stdin:

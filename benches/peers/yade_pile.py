@@ -1,10 +1,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """One run of a pile of pyramids in YADE, by one kind of bodies. Environment: JOB, an object in JSON with
 
-kind: ours, potential, polyhedra or levelset; count: bodies; task: see TASKS; start: file with the states to begin with; settle: steps
-before anything is measured; windows and steps: of each; save: files for the states while falling and at rest; result: where the JSON goes.
+kind: ours, potential, polyhedra or levelset; count: bodies; task: see TASKS; start: file with the states to begin with;
+settle: steps before anything is measured; windows and steps: of each; save: files for the states while falling and at
+rest; result: where the JSON goes.
 
-All kinds have the same mass, inertia, friction and time step; the springs are as near as the laws allow (`_material`, `_loop`). SI units, z up.
+All kinds have the same mass, inertia, friction and time step; the springs are as near as the laws allow (`_material`,
+`_loop`). SI units, z up.
 """
 
 import json
@@ -36,8 +38,8 @@ OURS, POTENTIAL, POLYHEDRA, LEVEL_SET = "ours", "potential", "polyhedra", "level
 SEED = 7
 STATES = ("pos", "ori", "vel", "angVel")
 VERLET_DISTANCE = 0.03 * pyramids.SIZE  # with BoundWatch, which ours has; the others' boxes must be exact at every step
-# Dissipation: the potential particles' law has dashpots, and YADE's local damping as little as in make demo; the laws of the others
-# have none, and get more of YADE's.
+# Dissipation: the potential particles' law has dashpots, and YADE's local damping as little as in make demo; the laws
+# of the others have none, and get more of YADE's.
 LOCAL_DAMPING = {OURS: 0.1, POTENTIAL: 0.1, POLYHEDRA: 0.3, LEVEL_SET: 0.3}
 FACE = 0.5 * pyramids.SIZE**2  # area on which the spring of a volume is as stiff as that of an overlap
 BOUNCE_STEPS_PER_STEP = 20
@@ -58,7 +60,8 @@ class Scene:
         self.shape = pyramid(pyramids.SIZE)
         self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, SEED)
         self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
-        self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN, measure_time=False) if kind in (OURS, POTENTIAL) else None
+        self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN,
+                                      measure_time=False) if kind in (OURS, POTENTIAL) else None
         self.angle = np.radians(pyramids.FRICTION_ANGLE) if dissipation else 0.0
         O.reset()
         O.timingEnabled = True
@@ -68,7 +71,9 @@ class Scene:
 
     def add(self, position, orientation, velocity=(0, 0, 0), spin=(0, 0, 0)):
         """A pyramid; orientation w, x, y, z."""
-        body = {OURS: self._potential, POTENTIAL: self._potential, POLYHEDRA: self._polyhedron, LEVEL_SET: self._level_set}[self.kind]()
+        body = {
+            OURS: self._potential, POTENTIAL: self._potential, POLYHEDRA: self._polyhedron, LEVEL_SET: self._level_set
+        }[self.kind]()
         turn = Quaternion(*map(float, orientation)).normalized()
         own, offset = getattr(self, "own", (Quaternion.Identity, Vector3.Zero))
         body.state.pos = body.state.refPos = Vector3(*map(float, position)) + turn * offset
@@ -154,7 +159,8 @@ class Scene:
 
     def _engines(self):
         damping = LOCAL_DAMPING[self.kind] if self.dissipation else 0.0
-        motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pyramids.GRAVITY), label="motion")
+        motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pyramids.GRAVITY),
+                                       label="motion")
         if self.contact:
             reset, collider, loop, _ = pyramids.engines(self.contact)
             if not self.dissipation:
@@ -165,8 +171,10 @@ class Scene:
                 collider.verletDist = VERLET_DISTANCE
                 engines.insert(1, yade.BoundWatch(label="watch"))
             return engines
-        boxes = [{POLYHEDRA: yade.Bo1_Polyhedra_Aabb, LEVEL_SET: yade.Bo1_LevelSet_Aabb}[self.kind](), yade.Bo1_Wall_Aabb()]
-        collider = yade.InsertionSortCollider(boxes, verletDist=0.0, avoidSelfInteractionMask=SLAB_ONLY, label="collider")
+        boxes = [{POLYHEDRA: yade.Bo1_Polyhedra_Aabb, LEVEL_SET: yade.Bo1_LevelSet_Aabb}[self.kind](),
+                 yade.Bo1_Wall_Aabb()]
+        collider = yade.InsertionSortCollider(boxes, verletDist=0.0, avoidSelfInteractionMask=SLAB_ONLY,
+                                              label="collider")
         return [yade.ForceResetter(), collider, self._loop(), motion]
 
     def _loop(self):
@@ -177,7 +185,8 @@ class Scene:
                 [yade.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
                 label="contacts",
             )
-        springs = dict(kn=yade.MatchMaker(algo="val", val=pyramids.NORMAL_STIFFNESS), ks=yade.MatchMaker(algo="val", val=pyramids.SHEAR_STIFFNESS))
+        springs = dict(kn=yade.MatchMaker(algo="val", val=pyramids.NORMAL_STIFFNESS),
+                       ks=yade.MatchMaker(algo="val", val=pyramids.SHEAR_STIFFNESS))
         return yade.InteractionLoop(
             [yade.Ig2_LevelSet_LevelSet_ScGeom(), yade.Ig2_Wall_LevelSet_ScGeom()],
             [yade.Ip2_FrictMat_FrictMat_FrictPhys(**springs)],
@@ -236,7 +245,9 @@ def windows():
 
 
 def bounce():
-    """One pyramid dropped onto the floor, without friction or damping: how far its energy in flight strays from that at the start."""
+    """One pyramid dropped onto the floor, without friction or damping: how far its energy in flight strays from that at
+    the start.
+    """
     scene = Scene(JOB["kind"], 1, dissipation=False)
     scene.add((0, 0, reach(scene.shape) + DROP), TILT)
     scene.finish()
@@ -260,10 +271,17 @@ def describe():
     # Of the critical damping of two bodies, whose effective mass at a corner is about a quarter.
     damping = 2.0 * pyramids.VISCOUS_DAMPING * np.sqrt(pyramids.NORMAL_STIFFNESS * 0.25 * mass)
     return {
-        "normals": normals.tolist(), "offsets": offsets.tolist(), "r": scene.shape.r, "mass": mass,
+        "normals": normals.tolist(),
+        "offsets": offsets.tolist(),
+        "r": scene.shape.r,
+        "mass": mass,
         "inertia": [value * pyramids.DENSITY for value in scene.shape.inertia],
-        "half_width": float(scene.box.half_x), "height": float(scene.box.height),
-        "laws": [pyramids.NORMAL_STIFFNESS, damping, 0.5 * damping, float(np.tan(scene.angle)), pyramids.GRAVITY, pyramids.TIME_STEP],
+        "half_width": float(scene.box.half_x),
+        "height": float(scene.box.height),
+        "laws": [
+            pyramids.NORMAL_STIFFNESS, damping, 0.5 * damping,
+            float(np.tan(scene.angle)), pyramids.GRAVITY, pyramids.TIME_STEP
+        ],
     }
 
 

@@ -1,8 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Block theory against the simulation on random cuts of a slope. Run inside YADE by `make rock`; CUTS (1000), TURNS (100); adds to out/rock/summary.json.
+"""Block theory against the simulation on random cuts of a slope. Run inside YADE by `make rock`; CUTS (1000), TURNS
+(100); adds to out/rock/summary.json.
 
-Of each cut one block at a free face, most often one that block theory frees, if there is one, lies among its neighbours, which are fixed: it has to move by a millimetre
-in the direction that block theory has, or to stay within a tenth of it, if need be with stiffer joints and sharper edges, since block theory is of rigid and sharp blocks. TURNS of them are run again with blocks that may turn, which block theory leaves out.
+Of each cut one block at a free face, most often one that block theory frees, if there is one, lies among its
+neighbours, which are fixed: it has to move by a millimetre in the direction that block theory has, or to stay within a
+tenth of it, if need be with stiffer joints and sharper edges, since block theory is of rigid and sharp blocks. TURNS of
+them are run again with blocks that may turn, which block theory leaves out.
 """
 import collections
 import json
@@ -28,7 +31,10 @@ while len(rows) < CUTS:
     if one is None:
         continue
     distance, direction, nearer = slope_cuts.judged(mass, one, friction)
-    row = {"seed": seed - 1, "mode": one.mode, "factor": one.factor, "moves": one.moves, "distance": distance, "nearer": nearer, "agrees": slope_cuts.agrees(one, distance, direction)}
+    row = {
+        "seed": seed - 1, "mode": one.mode, "factor": one.factor, "moves": one.moves, "distance": distance,
+        "nearer": nearer, "agrees": slope_cuts.agrees(one, distance, direction)
+    }
     if len(rows) < TURNS:
         row["distance_with_turns"] = slope_cuts.moved(mass, one, friction, turns=True)[0]
     rows.append(row)
@@ -42,8 +48,9 @@ for mode, moves in sorted({(mode, moves) for mode, moves, _ in counts}):
     print(f"| {mode} | {'moves' if moves else 'stays'} | {agree + not_so} | {agree} |")
 for row in rows:
     if not row["agrees"] or row["nearer"] > 1:
-        print(f"cut {row['seed']}: {row['mode']}, factor of safety {row['factor']:.3f}, moved by {row['distance']:.1e} m, {'agrees' if row['agrees'] else 'differs'} "
-              f"with joints {row['nearer']:g} times as stiff and edges as sharp")
+        print(
+            f"cut {row['seed']}: {row['mode']}, factor of safety {row['factor']:.3f}, moved by {row['distance']:.1e} m, {'agrees' if row['agrees'] else 'differs'} "
+            f"with joints {row['nearer']:g} times as stiff and edges as sharp")
 turned = [row for row in rows if "distance_with_turns" in row and not row["moves"]]
 toppled = int(sum(row["distance_with_turns"] > slope_cuts.MOVED for row in turned))
 print(f"of {len(turned)} that stay, {toppled} move by 1 mm if they may turn; {time.monotonic() - begin:.0f} s")
@@ -53,8 +60,14 @@ name = "cuts of a slope where block theory and simulation differ"
 wrong = int(sum(not row["agrees"] for row in rows))
 summary["targets"] = [one for one in summary["targets"] if one["name"] != name] + [
     {"name": name, "sense": "at most", "target": 0, "measured": wrong, "met": wrong == 0}]
-summary["key_blocks"] = {"cuts": len(rows), "moves": int(sum(row["moves"] for row in rows)), "differ": wrong, "rigid_and_sharp": int(sum(row["nearer"] > 1 for row in rows)), "stay": len(turned), "stay_but_turn": toppled,
-                         "modes": {f"{mode}, {'moves' if moves else 'stays'}": sum(row["mode"] == mode and row["moves"] == moves for row in rows)
-                                   for mode, moves in sorted({(row["mode"], row["moves"]) for row in rows})}}
+summary["key_blocks"] = {
+    "cuts": len(rows), "moves": int(sum(row["moves"] for row in rows)), "differ": wrong,
+    "rigid_and_sharp": int(sum(row["nearer"] > 1 for row in rows)), "stay": len(turned), "stay_but_turn": toppled,
+    "modes": {
+        f"{mode}, {'moves' if moves else 'stays'}": sum(row["mode"] == mode and row["moves"] == moves for row in rows)
+        for mode, moves in sorted({(row["mode"], row["moves"])
+                                   for row in rows})
+    }
+}
 file.parent.mkdir(parents=True, exist_ok=True)
 write_summary(file, summary)

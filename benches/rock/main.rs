@@ -1,5 +1,5 @@
-//! Rock masses: how long slicing takes, and whether the volumes of the blocks sum to that of the domain. Writes out/rock/summary.json, and
-//! out/rock/slope.json for the picture; `-- quick` takes the small ones only.
+//! Rock masses: how long slicing takes, and whether the volumes of the blocks sum to that of the domain. Writes
+//! out/rock/summary.json, and out/rock/slope.json for the picture; `-- quick` takes the small ones only.
 
 #[path = "../target/mod.rs"]
 mod target;
@@ -109,7 +109,8 @@ fn row(count: u32) -> Row {
         let settings = SliceSettings { threads, ..SliceSettings::default() };
         slice(&domain, &joints, &settings).expect("a rock mass")
     };
-    // Other work may share the machine: the best of some windows, in turns, and on one thread the processor's time besides.
+    // Other work may share the machine: the best of some windows, in turns, and on one thread the processor's time
+    // besides.
     let (mut seconds, mut one, mut two) = (f64::INFINITY, f64::INFINITY, f64::INFINITY);
     for _ in 0..WINDOWS {
         let (mut runs, mut own, mut window) = (0.0, 0.0, 0.0);

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The slope that the benchmark of slicing cuts, its blocks moved apart a little: python3 benches/rock/plot.py; reads and writes out/rock."""
+"""The slope that the benchmark of slicing cuts, its blocks moved apart a little: python3 benches/rock/plot.py; reads
+and writes out/rock.
+"""
 import json
 from pathlib import Path
 
@@ -28,9 +30,10 @@ picture = plt.figure(figsize=(8, 6.5), layout="constrained")
 axes = picture.add_subplot(projection="3d", proj_type="persp")
 axes.add_collection3d(Poly3DCollection(polygons, facecolors=colours, edgecolors="#3b3b3b", linewidths=0.3))
 every = np.concatenate(polygons)
-axes.set(xlim=(every[:, 0].min(), every[:, 0].max()), ylim=(every[:, 1].min(), every[:, 1].max()), zlim=(every[:, 2].min(), every[:, 2].max()),
-         xlabel="east, m", ylabel="north, m", zlabel="up, m")
+axes.set(xlim=(every[:, 0].min(), every[:, 0].max()), ylim=(every[:, 1].min(), every[:, 1].max()),
+         zlim=(every[:, 2].min(), every[:, 2].max()), xlabel="east, m", ylabel="north, m", zlabel="up, m")
 axes.set_aspect("equal")
 axes.view_init(elev=22, azim=-48)
-axes.legend(handles=[plt.Rectangle((0, 0), 1, 1, color=COLOURS[one], label=LABELS[one]) for one in COLOURS], loc="upper right", fontsize=8)
+axes.legend(handles=[plt.Rectangle((0, 0), 1, 1, color=COLOURS[one], label=LABELS[one]) for one in COLOURS],
+            loc="upper right", fontsize=8)
 picture.savefig(OUT / "rock.png", dpi=100)

@@ -3,7 +3,8 @@
 
 KIND (pyramids, spheres), COUNT (bodies of the kept pile), COPIES of it, PILE (where it is kept; settled
 and written there if it is not), WAY (best: ConicInteractionLoop and BoundWatch, plain: YADE's own loop and boxes),
-STUDIES (the folder with the scenes of its commit), WINDOWS and STEPS (of each), SAVE (a file: also saves and loads the scene), RESULT (where the JSON goes).
+STUDIES (the folder with the scenes of its commit), WINDOWS and STEPS (of each), SAVE (a file: also saves and loads the
+scene), RESULT (where the JSON goes).
 """
 
 import json

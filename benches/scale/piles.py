@@ -92,7 +92,8 @@ class Pile:
     def _other_loop(self, loop):
         if self.loop is None:
             return loop
-        return self.loop(loop.geomDispatcher.functors, loop.physDispatcher.functors, loop.lawDispatcher.functors, label="contacts")
+        return self.loop(loop.geomDispatcher.functors, loop.physDispatcher.functors, loop.lawDispatcher.functors,
+                         label="contacts")
 
     def _watch_boxes(self):
         reset, collider, *others = O.engines
@@ -118,7 +119,8 @@ class Pile:
 
     def _append(self, position, orientation):
         if self.kind == PYRAMIDS:
-            body = potential_body(self.contact.shape_class, self.shape, self.material, position, orientation, mask=BODY_MASK)
+            body = potential_body(self.contact.shape_class, self.shape, self.material, position, orientation,
+                                  mask=BODY_MASK)
         else:
             body = utils.sphere(tuple(map(float, position)), SPHERE_RADIUS, material=self.material, mask=BODY_MASK)
         number = O.bodies.append(body)
@@ -127,7 +129,9 @@ class Pile:
 
     def _finish(self):
         if self.kind == PYRAMIDS:
-            O.engines = [self._other_loop(one) if one.label == "contacts" else one for one in pyramids.engines(self.contact)]
+            O.engines = [
+                self._other_loop(one) if one.label == "contacts" else one for one in pyramids.engines(self.contact)
+            ]
             if self.watched:
                 self._watch_boxes()
             self.contact.prepare()

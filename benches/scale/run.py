@@ -1,11 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Where the time of a step goes in piles at rest of 200 to 100,000 bodies, beside YADE's own spheres and an earlier commit.
+"""Where the time of a step goes in piles at rest of 200 to 100,000 bodies, beside spheres and an earlier commit.
 
     benches/scale/run.py [--before COMMIT] [--rounds 3] [--quick]
 
-The runs take turns, each in a process of its own, and of each figure the fastest window counts. Results go to out/scale:
-summary.json with targets, scale.png, and the settled piles for the next time. Leave the machine alone meanwhile.
+The runs take turns, each in a process of its own, and of each figure the fastest window counts. Results go to
+out/scale: summary.json with targets, scale.png, and the settled piles for the next time. Leave the machine alone
+meanwhile.
 """
 
 import argparse
@@ -28,7 +29,8 @@ from summary import print_table, write_summary
 
 OUT = TOP / "out" / "scale"
 PARTS = ("reset", "watch", "collider", "contacts", "motion")
-# Name: kind, bodies of the settled pile, copies of it, threads, way, windows, steps of a window: short, to fit between what else the machine does.
+# Name: kind, bodies of the settled pile, copies of it, threads, way, windows, steps of a window: short, to fit between
+# what else the machine does.
 RUNS = {
     "spheres 300": ("spheres", 300, 1, 1, "plain", 60, 60),
     "pyramids 200": ("pyramids", 200, 1, 1, "best", 60, 60),
@@ -48,9 +50,11 @@ DEMO_STEPS = 14_000
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    arguments.add_argument("--before", default="82754b2", help="the commit that is measured beside this one; '' for none")
+    arguments.add_argument("--before", default="82754b2",
+                           help="the commit that is measured beside this one; '' for none")
     arguments.add_argument("--rounds", type=int, default=3, help="turns of each run")
-    arguments.add_argument("--quick", action="store_true", help="one turn, nothing above 2,000 bodies: to see that it runs")
+    arguments.add_argument("--quick", action="store_true",
+                           help="one turn, nothing above 2,000 bodies: to see that it runs")
     options = arguments.parse_args()
     OUT.mkdir(parents=True, exist_ok=True)
     packages = {"here": TOP / "yade-glue" / "build" / "python"}
@@ -74,7 +78,9 @@ def main():
             demos[name] = min(demos.get(name, float("inf")), demo(package, DEMO_STEPS // (10 if options.quick else 1)))
     targets = compare(best, demos)
     for target in targets:
-        print(f"  {target['name']:<86} {target['sense']} {target['target']:<5} {shown(target['measured']):>7}  {verdict(target)}")
+        print(
+            f"  {target['name']:<86} {target['sense']} {target['target']:<5} {shown(target['measured']):>7}  {verdict(target)}"
+        )
     write_summary(
         OUT / "summary.json",
         {
@@ -104,7 +110,8 @@ def earlier(commit):
         environment = dict(os.environ, CARGO_TARGET_DIR=str(target))
         run(["cargo", "build", "--release", "--quiet"], cwd=tree, env=environment)
         library = target / "release" / "libpotential_particles.so"
-        run(["cmake", "-S", "yade-glue", "-B", "yade-glue/build", f"-DPP_LIBRARY={library}"], cwd=tree, stdout=subprocess.DEVNULL)
+        run(["cmake", "-S", "yade-glue", "-B", "yade-glue/build", f"-DPP_LIBRARY={library}"], cwd=tree,
+            stdout=subprocess.DEVNULL)
         run(["cmake", "--build", "yade-glue/build"], cwd=tree, stdout=subprocess.DEVNULL)
     return package
 
@@ -114,7 +121,9 @@ def run(command, **more):
 
 
 def studies(package):
-    """The folder with the scenes of the tree to which a package belongs; earlier commits have them among their examples."""
+    """The folder with the scenes of the tree to which a package belongs; earlier commits have them among their
+    examples.
+    """
     tree = package.parents[2]
     return next(folder for folder in (tree / "studies", tree / "examples") if folder.exists())
 
@@ -124,8 +133,18 @@ def measured(name, package):
     result = OUT / "result.json"
     result.unlink(missing_ok=True)
     environment = dict(
-        os.environ, PYTHONPATH=str(package), STUDIES=str(studies(package)), OMP_WAIT_POLICY="passive", KIND=kind, COUNT=str(count), COPIES=str(copies),
-        PILE=str(OUT / f"{kind}_{count}.npz"), WAY=way, WINDOWS=str(windows), STEPS=str(steps), RESULT=str(result),
+        os.environ,
+        PYTHONPATH=str(package),
+        STUDIES=str(studies(package)),
+        OMP_WAIT_POLICY="passive",
+        KIND=kind,
+        COUNT=str(count),
+        COPIES=str(copies),
+        PILE=str(OUT / f"{kind}_{count}.npz"),
+        WAY=way,
+        WINDOWS=str(windows),
+        STEPS=str(steps),
+        RESULT=str(result),
     )
     if name in ONCE:
         environment["SAVE"] = str(OUT / "saved.yade.gz")
@@ -141,7 +160,12 @@ def demo(package, steps):
     out, script = OUT / "demo", studies(package) / "pyramids.py"
     (out / "summary.json").unlink(missing_ok=True)
     environment = dict(
-        os.environ, PYTHONPATH=str(package), OMP_WAIT_POLICY="passive", STEPS=str(steps), BODIES="200", FUNCTOR="library",
+        os.environ,
+        PYTHONPATH=str(package),
+        OMP_WAIT_POLICY="passive",
+        STEPS=str(steps),
+        BODIES="200",
+        FUNCTOR="library",
         OUTPUT=str(out),
     )
     command = ["/usr/bin/yade", "-x", "-n", "-j1", str(script)]
@@ -180,16 +204,20 @@ def compare(best, demos):
         return step(a, b) / (a["bodies"] / b["bodies"])
 
     rows = [
-        (*ratio("contact loop a touching contact, 2,000 pyramids / spheres", "pyramids 2,000", "spheres 2,000", loop), "<=", 3.0),
+        (*ratio("contact loop a touching contact, 2,000 pyramids / spheres", "pyramids 2,000", "spheres 2,000", loop),
+         "<=", 3.0),
         (*ratio("the same at 20,000", "pyramids 20,000", "spheres 20,000", loop), "<=", 2.5),
-        (*ratio("step of 200 pyramids / of spheres with as many contacts (step a contact)", "pyramids 200", "spheres 300",
-                lambda a, b: step(a, b) * b["contacts"] / a["contacts"]), "<=", 2.0),
-        (*ratio("body-steps a second, 2,000 pyramids, after / before", "before 2,000", "pyramids 2,000", step), ">=", 2.5),
+        (*ratio("step of 200 pyramids / of spheres with as many contacts (step a contact)", "pyramids 200",
+                "spheres 300", lambda a, b: step(a, b) * b["contacts"] / a["contacts"]), "<=", 2.0),
+        (*ratio("body-steps a second, 2,000 pyramids, after / before", "before 2,000", "pyramids 2,000", step), ">=",
+         2.5),
         (*ratio("the same at 20,000", "before 20,000", "pyramids 20,000", step), ">=", 2.5),
-        ("`make demo`, all engines, before / after", demos["before"] / demos["here"] if "before" in demos else None, ">=", 2.0),
+        ("`make demo`, all engines, before / after", demos["before"] / demos["here"] if "before" in demos else None,
+         ">=", 2.0),
         (*ratio("contact loop of 20,000, one thread / two", "pyramids 20,000", "pyramids 20,000, two threads",
                 lambda a, b: a["fastest"]["contacts"] / b["fastest"]["contacts"]), ">=", 1.9),
-        (*ratio("step of 20,000, one thread / two", "pyramids 20,000", "pyramids 20,000, two threads", step), ">=", 1.9),
+        (*ratio("step of 20,000, one thread / two", "pyramids 20,000", "pyramids 20,000, two threads", step), ">=",
+         1.9),
         (*ratio("step a body, 100,000 / 2,000 pyramids", "pyramids 100,000", "pyramids 2,000", per_body), "<=", 1.3),
     ]
     targets = []

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Times the steps of one scene, in YADE. Environment: SCENE (its name), KEPT (where its rocks are kept; settled and written there, and nothing
-measured, if they are not), WARMING, WINDOWS and STEPS (of each), RESULT (where the JSON goes)."""
+"""Times the steps of one scene, in YADE. Environment: SCENE (its name), KEPT (where its rocks are kept; settled and
+written there, and nothing measured, if they are not), WARMING, WINDOWS and STEPS (of each), RESULT (where the JSON
+goes).
+"""
 import json
 import os
 import pickle

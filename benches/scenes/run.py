@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Rocks on floors of facets, in a drum, out of a hopper, compressed between walls: the time of a step in YADE, beside earlier commits.
+"""Rocks on floors of facets, in a drum, out of a hopper, compressed: the time of a step, beside earlier commits.
 
     benches/scenes/run.py [--packages NAME=FOLDER ...] [--rounds 3] [--scenes NAME ...] [--quick]
 
-FOLDER holds another commit's package, as built in its yade-glue/build/python. The runs take turns, each in a process of its own and from the same
-state; of each window, a stretch of steps, the fastest turn counts, and a figure is the mean over the windows. Results go to out/scenes: summary.json
-with targets, scenes.png.
+FOLDER holds another commit's package, as built in its yade-glue/build/python. The runs take turns, each in a process of
+its own and from the same state; of each window, a stretch of steps, the fastest turn counts, and a figure is the mean
+over the windows. Results go to out/scenes: summary.json with targets, scenes.png.
 """
 import argparse
 import hashlib
@@ -51,12 +51,21 @@ def main():
                     turns.setdefault((scene, name), []).append(measured(scene, package, options.quick))
     best = {f"{scene}, {name}": fastest(runs) for (scene, name), runs in turns.items()}
     for name, row in best.items():
-        print(f"{name:<42} " + "  ".join(f"{part} {row['mean'].get(part, 0):.3f}" for part in (*PARTS, "step")) + f" ms; {row['counts']}")
-    targets = [{"name": name, "sense": sense, "target": goal, "measured": found, "met": bool(found <= goal if sense == "<=" else found >= goal)}
-               for name, found, sense, goal in compared(best, options.scenes, packages)]
+        print(f"{name:<42} " + "  ".join(f"{part} {row['mean'].get(part, 0):.3f}"
+                                         for part in (*PARTS, "step")) + f" ms; {row['counts']}")
+    targets = [{
+        "name": name, "sense": sense, "target": goal, "measured": found,
+        "met": bool(found <= goal if sense == "<=" else found >= goal)
+    } for name, found, sense, goal in compared(best, options.scenes, packages)]
     for row in targets:
-        print(f"{row['name']:<80} {row['sense']} {row['target']} {row['measured']:.2f} {'met' if row['met'] else 'MISSED'}")
-    write_summary(OUT / "summary.json", {"targets": targets, "runs": best, "machine": machine.machine_line(), "date": machine.now(), "command": "benches/scenes/run.py"})
+        print(
+            f"{row['name']:<80} {row['sense']} {row['target']} {row['measured']:.2f} {'met' if row['met'] else 'MISSED'}"
+        )
+    write_summary(
+        OUT / "summary.json", {
+            "targets": targets, "runs": best, "machine": machine.machine_line(), "date": machine.now(),
+            "command": "benches/scenes/run.py"
+        })
     draw(best)
 
 
@@ -65,7 +74,8 @@ def compared(best, scenes, packages):
     ratio = lambda part, one, other: best[one]["mean"][part] / best[other]["mean"][part]
     near, far = "5,000 facets", "5,000 facets and 45,000 far off"
     if near in scenes and far in scenes:
-        yield "contact loop with 45,000 facets far off / without", ratio("contacts", f"{far}, here", f"{near}, here"), "<=", 1.2
+        yield "contact loop with 45,000 facets far off / without", ratio("contacts", f"{far}, here",
+                                                                         f"{near}, here"), "<=", 1.2
     for scene in scenes:
         for name in packages:
             if name != "here" and SCENES[scene][3]:
@@ -78,15 +88,19 @@ def compared(best, scenes, packages):
 def fastest(runs):
     """Of each window the fastest turn, by its step; the mean over the windows, ms."""
     windows = [min(rows, key=lambda row: row["step"]) for rows in zip(*(run["windows"] for run in runs))]
-    return {"mean": {part: sum(row[part] for row in windows) / len(windows) for part in windows[0]}, "counts": runs[-1]["counts"]}
+    return {
+        "mean": {part: sum(row[part] for row in windows) / len(windows)
+                 for part in windows[0]}, "counts": runs[-1]["counts"]
+    }
 
 
 def measured(scene, package, quick):
     made_by = hashlib.sha256(Path(__file__).with_name("scenes.py").read_bytes()).hexdigest()[:8]
     result, kept = OUT / "result.json", OUT / f"{scene.replace(' ', '_').replace(',', '')}_{made_by}.pickle"
     warming, windows, steps, _ = SCENES[scene]
-    environment = dict(os.environ, OMP_WAIT_POLICY="passive", SCENE=scene, KEPT=str(kept), WARMING=str(warming), WINDOWS=str(2 if quick else windows),
-                       STEPS=str(steps // 5 if quick else steps), RESULT=str(result))
+    environment = dict(os.environ, OMP_WAIT_POLICY="passive", SCENE=scene, KEPT=str(kept), WARMING=str(warming),
+                       WINDOWS=str(2 if quick else windows), STEPS=str(steps // 5 if quick else steps),
+                       RESULT=str(result))
     if not kept.exists():
         yade(dict(environment, PYTHONPATH=str(TOP / "yade-glue" / "build" / "python")), kept)
     result.unlink(missing_ok=True)
@@ -95,10 +109,13 @@ def measured(scene, package, quick):
 
 
 def yade(environment, wanted):
-    done = subprocess.run(["/usr/bin/yade", "-x", "-n", "-j1", str(Path(__file__).with_name("measure.py"))], env=environment, text=True,
+    done = subprocess.run(["/usr/bin/yade", "-x", "-n", "-j1",
+                           str(Path(__file__).with_name("measure.py"))], env=environment, text=True,
                           stdin=subprocess.DEVNULL, capture_output=True)
     if not wanted.exists():
-        sys.exit(f"{environment['SCENE']}, {environment['PYTHONPATH']}: no result\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+        sys.exit(
+            f"{environment['SCENE']}, {environment['PYTHONPATH']}: no result\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}"
+        )
 
 
 def draw(best):

@@ -84,7 +84,8 @@ fn rejects(c: &mut Criterion, pairs: &[Touching], random: &mut Random) {
     walk(c, "reject", "call, by memory", &apart, |pair| warm(pair, Formulation::Midway));
 }
 
-/// A particle and a triangle of its size: a contact, a near miss that is solved to the end in most cases, and one far off.
+/// A particle and a triangle of its size: a contact, a near miss that is solved to the end in most cases, and one far
+/// off.
 fn facets(c: &mut Criterion) {
     for (r, k) in pyramids::ROUNDED.into_iter().chain([pyramids::SHARP]) {
         let mut random = Random::seeded(20_090_103);

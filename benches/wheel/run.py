@@ -3,8 +3,9 @@
 
     PYTHON benches/wheel/run.py OUT LIBRARY
 
-PYTHON has the wheel; LIBRARY is libpotential_particles.so of the same sources. Writes OUT/summary.json and, with matplotlib, OUT/overhead.png.
-Both ways read the same arrays and take turns; the shortest of the rounds count, since what disturbs a round only adds to it.
+PYTHON has the wheel; LIBRARY is libpotential_particles.so of the same sources. Writes OUT/summary.json and, with
+matplotlib, OUT/overhead.png. Both ways read the same arrays and take turns; the shortest of the rounds count, since
+what disturbs a round only adds to it.
 """
 import ctypes
 import subprocess
@@ -28,9 +29,12 @@ class Library:
 
     def __init__(self, file):
         self.library = ctypes.CDLL(str(file))
-        self.library.pp_particle_new.argtypes = [ctypes.c_void_p, ctypes.c_size_t] + 3 * [ctypes.c_double] + 2 * [ctypes.c_void_p] + [ctypes.c_size_t]
+        self.library.pp_particle_new.argtypes = [ctypes.c_void_p, ctypes.c_size_t
+                                                 ] + 3 * [ctypes.c_double] + 2 * [ctypes.c_void_p] + [ctypes.c_size_t]
         self.library.pp_contact_detect_batch.argtypes = (
-            2 * [ctypes.c_void_p] + [ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_uint32] + 3 * [ctypes.c_void_p])
+            2 * [ctypes.c_void_p]
+            + [ctypes.c_size_t, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_uint32]
+            + 3 * [ctypes.c_void_p])
 
     def particle(self, planes, r, k, shadow):
         rows, made = np.array(planes, float), ctypes.c_void_p()
@@ -38,9 +42,9 @@ class Library:
         return made.value
 
     def batch(self, particles, poses, pairs, settings, states, contacts, statuses):
-        done = self.library.pp_contact_detect_batch(
-            particles.ctypes.data, poses.ctypes.data, len(poses), pairs.ctypes.data, len(pairs), settings.ctypes.data, 1, states.ctypes.data,
-            contacts.ctypes.data, statuses.ctypes.data)
+        done = self.library.pp_contact_detect_batch(particles.ctypes.data, poses.ctypes.data, len(poses),
+                                                    pairs.ctypes.data, len(pairs), settings.ctypes.data, 1,
+                                                    states.ctypes.data, contacts.ctypes.data, statuses.ctypes.data)
         assert done == 0 and not statuses.any()
 
 
@@ -65,7 +69,9 @@ def seconds(call):
 
 
 def batches(library):
-    """Seconds of a batch by C and by Python: from the last solution, and carried on; and what a new list of pairs costs."""
+    """Seconds of a batch by C and by Python: from the last solution, and carried on; and what a new list of pairs
+    costs.
+    """
     poses, pairs = scene()
     own = library.particle(CUBE, 0.1, 0.01, 2.0)
     particles, cube = np.full(len(poses), own, np.uint64), pp.Particle(CUBE, 0.1, 0.01, 2.0)
@@ -74,7 +80,8 @@ def batches(library):
         # As struct pp_settings: four numbers of 32 bits, four doubles.
         settings = np.zeros(1, [("choices", "4u4"), ("numbers", "4f8")])
         settings["numbers"] = 1e-12, 0.5, 1e-13, carry
-        states, contacts, statuses = np.zeros((len(pairs), 48)), np.zeros(len(pairs), pp.contact_type), np.zeros(len(pairs), np.int32)
+        states, contacts, statuses = np.zeros(
+            (len(pairs), 48)), np.zeros(len(pairs), pp.contact_type), np.zeros(len(pairs), np.int32)
         batch = pp.Batch([cube] * len(poses), pp.Settings(carry_tolerance=carry))
         out = np.zeros(len(pairs), pp.contact_type)
 
@@ -99,11 +106,17 @@ def single(library):
     """Seconds of one call from the last solution, by C and by Python."""
     with tempfile.TemporaryDirectory() as folder:
         program, beside = Path(folder, "single"), Path(library).parent
-        subprocess.run(["cc", "-O2", "-std=c11", "-Wall", "-Werror", str(TOP / "benches/wheel/single.c"), f"-I{TOP / 'include'}", f"-L{beside}",
-                        "-lpotential_particles", f"-Wl,-rpath,{beside}", "-o", str(program)], check=True)
-        said = subprocess.run([str(program), str(CALLS), str(ROUNDS)], check=True, capture_output=True, text=True).stdout
+        subprocess.run([
+            "cc", "-O2", "-std=c11", "-Wall", "-Werror",
+            str(TOP / "benches/wheel/single.c"), f"-I{TOP / 'include'}", f"-L{beside}", "-lpotential_particles",
+            f"-Wl,-rpath,{beside}", "-o",
+            str(program)
+        ], check=True)
+        said = subprocess.run([str(program), str(CALLS), str(ROUNDS)], check=True, capture_output=True,
+                              text=True).stdout
     by_c = min(map(float, said.split()))
-    cube, lower, upper = pp.Particle(CUBE, 0.1, 0.01, 2.0), pp.Pose((0, 0, 0)), pp.Pose((0.3, 0.1, 1.9), (1, 0.1, 0.05, 0.2))
+    cube, lower, upper = pp.Particle(CUBE, 0.1, 0.01, 2.0), pp.Pose((0, 0, 0)), pp.Pose((0.3, 0.1, 1.9),
+                                                                                        (1, 0.1, 0.05, 0.2))
     settings, state, detect = pp.Settings(), pp.PairState(), pp.detect
 
     def calls():
@@ -143,7 +156,10 @@ def main():
     by_c, by_python = single(file)
     rows = [{"name": f"batch, {name}", "c": c / count, "python": python / count} for name, (c, python) in found.items()]
     rows.append({"name": "single call", "c": by_c, "python": by_python})
-    targets = [at_most(f"time of a batch of {count} pairs, {name}, over C's", 1.05, python / c) for name, (c, python) in found.items()]
+    targets = [
+        at_most(f"time of a batch of {count} pairs, {name}, over C's", 1.05, python / c)
+        for name, (c, python) in found.items()
+    ]
     targets.append(at_most("a single call above C's, us", 1.0, 1e6 * (by_python - by_c)))
     for row in rows:
         print(f"{row['name']}: C {1e6 * row['c']:.4f} us, Python {1e6 * row['python']:.4f} us")

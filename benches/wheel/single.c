@@ -12,7 +12,8 @@ static double now(void) {
 }
 
 int main(int count, char **words) {
-    const double planes[6][4] = {{1, 0, 0, 0.9}, {-1, 0, 0, 0.9}, {0, 1, 0, 0.9}, {0, -1, 0, 0.9}, {0, 0, 1, 0.9}, {0, 0, -1, 0.9}};
+    const double planes[6][4] = { { 1, 0, 0, 0.9 },  { -1, 0, 0, 0.9 }, { 0, 1, 0, 0.9 },
+                                  { 0, -1, 0, 0.9 }, { 0, 0, 1, 0.9 },  { 0, 0, -1, 0.9 } };
     const pp_pose lower = {{0, 0, 0}, {1, 0, 0, 0}}, upper = {{0.3, 0.1, 1.9}, {1, 0.1, 0.05, 0.2}};
     const long calls = count > 1 ? atol(words[1]) : 100000, rounds = count > 2 ? atol(words[2]) : 5;
     pp_particle *cube = NULL;

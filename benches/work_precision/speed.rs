@@ -168,7 +168,8 @@ fn pyramid_costs(
     group
 }
 
-/// A contact of a batch on one thread, in which the poses of all B go to and fro between two, beside as many evaluations.
+/// A contact of a batch on one thread, in which the poses of all B go to and fro between two, beside as many
+/// evaluations.
 fn batch(pairs: &[Touching], effort: &Effort, progress: &ProgressBar) -> Cost {
     let particles: Vec<_> = pairs.iter().flat_map(|pair| [&pair.a, &pair.b]).collect();
     let poses = [true, false].map(|moved| -> Vec<_> {

@@ -4,7 +4,8 @@
     TILE=tile.npz yade -x -n -j1 benches/yade/tiles.py
     TILE=tile.npz TILES=8,5 BOXES=ball RESULT=result.json scripts/yade_mpi.sh 3 -j1 benches/yade/tiles.py
 
-A tile settles between four walls. Without them tiles fit together, since no body reaches across its walls by more than an overlap.
+A tile settles between four walls. Without them tiles fit together, since no body reaches across its walls by more than
+an overlap.
 """
 
 import json
@@ -55,7 +56,8 @@ def main():
     result = measure(steps)
     gathered = mpi.gather(result)
     if mpi.rank() == 0:
-        Path(os.environ["RESULT"]).write_text(json.dumps({"ranks": mpi.ranks(), "first_seconds": started, "parts": gathered}))
+        Path(os.environ["RESULT"]).write_text(
+            json.dumps({"ranks": mpi.ranks(), "first_seconds": started, "parts": gathered}))
 
 
 def settle(path):
@@ -79,7 +81,8 @@ def settle(path):
 def lay(tile, across, along):
     """So many tiles side by side, at rest."""
     wide, long = CELLS[0] * WIDTH, CELLS[1] * WIDTH
-    shifts = [((i + 0.5 - across / 2) * wide, (j + 0.5 - along / 2) * long, 0.0) for i in range(across) for j in range(along)]
+    shifts = [((i + 0.5 - across / 2) * wide, (j + 0.5 - along / 2) * long, 0.0) for i in range(across)
+              for j in range(along)]
     positions = np.vstack([tile["positions"] + np.array(shift) for shift in shifts])
     orientations = np.vstack([tile["orientations"]] * len(shifts))
     return fill(positions, orientations, across * wide / 2, along * long / 2, tile["positions"][:, 2].max() + 0.2)
@@ -89,7 +92,8 @@ def fill(positions, orientations, half_x, half_y, height):
     """The scene of pyramids.py with these bodies; returns their ids."""
     shape = pyramid(pyramids.SIZE)
     contact = ContactFunctor(LIBRARY, measure_time=False)
-    material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(pyramids.FRICTION_ANGLE), density=pyramids.DENSITY)
+    material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(pyramids.FRICTION_ANGLE),
+                             density=pyramids.DENSITY)
     O.materials.append(material)
     O.bodies.append(Box(half_x, half_y, height, thickness=pyramids.SIZE).slabs(contact.shape_class, material))
     ids = [pyramids.append(contact, shape, material, *pose) for pose in zip(positions, orientations)]
@@ -125,7 +129,8 @@ def measure(steps):
     if mpi.ranks() > 1:
         here = mpi.rank()
         if here:
-            result["states_sent"] = sum(len(O.subD.intersections[k]) for k in O.subD.intersections[here] if k not in (0, here))
+            result["states_sent"] = sum(
+                len(O.subD.intersections[k]) for k in O.subD.intersections[here] if k not in (0, here))
         result["exchange_seconds"] = timed(exchange, EXCHANGES)
         result["collide_seconds"] = timed(mpy.parallelCollide, 2)
     return result

@@ -3,7 +3,8 @@
 
     scripts/yade.sh -j1 benches/yade/walls.py [SETTLE_STEPS [BODIES]]
 
-Prints the contacts, the time of each engine of a step, and of the facets' functor alone; the fastest of some blocks of steps.
+Prints the contacts, the time of each engine of a step, and of the facets' functor alone; the fastest of some blocks of
+steps.
 """
 
 import random
@@ -34,7 +35,8 @@ def grid(origin, along, up, columns, rows):
 def box():
     x, y, z = Vector3(WIDTH, 0, 0), Vector3(0, WIDTH, 0), Vector3(0, 0, HEIGHT)
     low = Vector3(-WIDTH / 2, -WIDTH / 2, 0)
-    for origin, along, up, rows in (low, x, y, CELLS), (low, x, z, 12), (low + y, x, z, 12), (low, y, z, 12), (low + x, y, z, 12):
+    for origin, along, up, rows in (low, x, y, CELLS), (low, x, z, 12), (low + y, x, z, 12), (low, y, z,
+                                                                                              12), (low + x, y, z, 12):
         yield from grid(origin, along, up, CELLS, rows)
 
 
@@ -47,7 +49,8 @@ def rocks():
         shape = yade.ConicPotentialParticle(planes=planes, r=r, k=0.05, R=SIZE)
         body = yade.Body()
         body.shape, body.aspherical = shape, True
-        place = Vector3(n % per_row - per_row / 2 + 0.5, n // per_row % per_row - per_row / 2 + 0.5, n // per_row**2 + 0.6) * 1.75 * SIZE
+        place = Vector3(n % per_row - per_row / 2 + 0.5, n // per_row % per_row - per_row / 2 + 0.5,
+                        n // per_row**2 + 0.6) * 1.75 * SIZE
         utils._commonBodySetup(body, shape.volume, shape.inertia.diagonal(), material=-1, pos=place)
         body.state.mass, body.state.inertia = 2000 * shape.volume, 2000 * shape.inertia.diagonal()
         body.state.ori = Quaternion(Vector3([draw.gauss(0, 1) for _ in range(3)]).normalized(), draw.uniform(0, 3))
@@ -94,13 +97,17 @@ for _ in range(BLOCKS):
     begin = walls.seconds, pairs.seconds
     advance(BLOCK_STEPS)
     times = [engine.execTime * 1e-6 / BLOCK_STEPS for engine in O.engines]
-    row = (sum(times), times, (walls.seconds - begin[0]) * 1e3 / BLOCK_STEPS, (pairs.seconds - begin[1]) * 1e3 / BLOCK_STEPS)
+    row = (sum(times), times, (walls.seconds - begin[0]) * 1e3 / BLOCK_STEPS,
+           (pairs.seconds - begin[1]) * 1e3 / BLOCK_STEPS)
     best = min(best, row) if best else row
 total, times, of_walls, of_pairs = best
 low = min(O.bodies[n].state.pos[2] for n in range(facets, len(O.bodies)))
-print(f"{facets:,} facets, {BODIES:,} bodies, lowest centre at {low:.3f} m, {O.numThreads} threads; {len(O.interactions):,} pairs, "
-      f"{len(touching):,} contacts, {at_walls:,} with facets; failures {walls.failures}")
-print(f"a step {total:.2f} ms: " + ", ".join(f"{type(engine).__name__} {ms:.2f}" for engine, ms in zip(O.engines, times)))
-print(f"functors, summed over threads: facets {of_walls:.2f} ms ({walls.calls / BLOCKS / BLOCK_STEPS:.0f} calls a step), "
-      f"pairs {of_pairs:.2f} ms; facets answered by {walls.answers}")
+print(
+    f"{facets:,} facets, {BODIES:,} bodies, lowest centre at {low:.3f} m, {O.numThreads} threads; {len(O.interactions):,} pairs, "
+    f"{len(touching):,} contacts, {at_walls:,} with facets; failures {walls.failures}")
+print(f"a step {total:.2f} ms: " + ", ".join(f"{type(engine).__name__} {ms:.2f}"
+                                             for engine, ms in zip(O.engines, times)))
+print(
+    f"functors, summed over threads: facets {of_walls:.2f} ms ({walls.calls / BLOCKS / BLOCK_STEPS:.0f} calls a step), "
+    f"pairs {of_pairs:.2f} ms; facets answered by {walls.answers}")
 sys.exit(0)

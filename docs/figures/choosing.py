@@ -36,8 +36,11 @@ def scene(young, damping, kinds, number, friction=0.5):
         O.bodies.append(utils.wall(0, axis=2))
     O.engines = [
         ForceResetter(),
-        InsertionSortCollider([PotentialParticle2AABB(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist=0),
-        ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Facet_ConicPP_ScGeom(), Ig2_Wall_ConicPP_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
+        InsertionSortCollider(
+            [PotentialParticle2AABB(), Bo1_Facet_Aabb(), Bo1_Wall_Aabb()], verletDist=0),
+        ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(),
+                              Ig2_Facet_ConicPP_ScGeom(),
+                              Ig2_Wall_ConicPP_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
                              [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
         NewtonIntegrator(damping=damping, gravity=(0, 0, -GRAVITY), exactAsphericalRot=True),
     ]
@@ -68,7 +71,9 @@ def kinetic(damping, rocks):
 
 
 def energy_error(share, kinds, young):
-    """Drift of the energy of frictionless bodies that bounce on a floor for 1 s, over that of their fall; `share` of the limit."""
+    """Drift of the energy of frictionless bodies that bounce on a floor for 1 s, over that of their fall; `share` of
+    the limit.
+    """
     drifts = []
     for kind in kinds:
         scene(young, 0.0, kind, 1, friction=0.0)
@@ -94,7 +99,8 @@ def main():
     overlaps.loglog(YOUNG, found[:, 0], "o-", label="while falling")
     overlaps.loglog(YOUNG, found[:, 1], "s-", label="at rest")
     speed, mass = np.sqrt(2 * GRAVITY * HEIGHT), DENSITY * np.pi / 6 * SIZE**3
-    overlaps.loglog(YOUNG, speed * np.sqrt(mass / (YOUNG * SIZE / 2)) / SIZE, "k:", label=r"$v\sqrt{m/k_n}$ of one body")
+    overlaps.loglog(YOUNG,
+                    speed * np.sqrt(mass / (YOUNG * SIZE / 2)) / SIZE, "k:", label=r"$v\sqrt{m/k_n}$ of one body")
     overlaps.axhline(rocks[0].r / SIZE, color="0.6")
     overlaps.text(YOUNG[-1], rocks[0].r / SIZE * 1.1, "r", ha="right", color="0.4")
     overlaps.set(xlabel="young, Pa", ylabel="largest overlap / size", title="stiffness")
@@ -106,8 +112,8 @@ def main():
     energies.set(xlabel="time, s", ylabel="kinetic energy / energy of the fall", title="damping")
     energies.legend(title="NewtonIntegrator", frameon=False, fontsize=8, title_fontsize=8)
 
-    for label, kinds, young, marks in (("sphere, 1e8 Pa", [shapes.sphere(SIZE / 2)], 1e8, "k.:"),
-                                       ("rocks, 1e7 Pa", rocks[:4], 1e7, "s-"), ("rocks, 1e9 Pa", rocks[:4], 1e9, "o-")):
+    for label, kinds, young, marks in (("sphere, 1e8 Pa", [shapes.sphere(
+            SIZE / 2)], 1e8, "k.:"), ("rocks, 1e7 Pa", rocks[:4], 1e7, "s-"), ("rocks, 1e9 Pa", rocks[:4], 1e9, "o-")):
         errors = [energy_error(share, kinds, young) for share in SHARES]
         print(label, *zip(SHARES, errors), sep="\n", flush=True)
         steps.loglog(SHARES, errors, marks, label=label)

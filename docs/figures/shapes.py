@@ -47,8 +47,9 @@ def main():
             points, hull = surface(shape)
             bright = np.clip(normals(shape, points)[hull.simplices].mean(1) @ (LIGHT / np.linalg.norm(LIGHT)), 0, 1)
             colours = (0.25 + 0.75 * bright)[:, None] * np.array([0.80, 0.68, 0.52])
-            axis.add_collection3d(Poly3DCollection(points[hull.simplices], facecolors=colours, edgecolors=colours, linewidths=0.5,
-                                                      antialiased=False))
+            axis.add_collection3d(
+                Poly3DCollection(points[hull.simplices], facecolors=colours, edgecolors=colours, linewidths=0.5,
+                                 antialiased=False))
             for limits in (axis.set_xlim, axis.set_ylim, axis.set_zlim):
                 limits(-0.42, 0.42)
             axis.set_box_aspect((1, 1, 1))

@@ -165,9 +165,11 @@ def gap_tolerance(program):
         left.plot(tolerances, of(max, 0), "." "-", color=colour, label=f"largest gap, {name}")
         left.plot(tolerances, of(statistics.median, 0), "." "--", color=colour, label=f"median gap, {name}")
         left.plot(tolerances, of(max, 1), "." ":", color=colour, label=f"largest error, {name}")
-        right.plot(tolerances, [sum(row[2] == extended for row in answers) for answers in rows], color=colour, marker=".", label=name)
+        right.plot(tolerances, [sum(row[2] == extended for row in answers) for answers in rows], color=colour,
+                   marker=".", label=name)
     left.plot(tolerances, tolerances, color=GREY, linewidth=0.6)
-    left.annotate("gap = tolerance", (2e-10, 2e-10), color=GREY, fontsize=9, xytext=(4, -12), textcoords="offset points")
+    left.annotate("gap = tolerance", (2e-10, 2e-10), color=GREY, fontsize=9, xytext=(4, -12),
+                  textcoords="offset points")
     left.set_yscale("log")
     left.set_ylim(1e-17, 1e-5)
     left.set_ylabel("relative to max(s, 1)")

@@ -63,8 +63,11 @@ static void make_pyramid(void) {
     pp_mass_properties properties;
     for (int round = 0; round < 4; round++) {
         const double side = 0.5 * SIZE * across - below * up - r;
-        const double planes[5][4] = {
-            {across, 0, up, side}, {-across, 0, up, side}, {0, across, up, side}, {0, -across, up, side}, {0, 0, -1, below - r}};
+        const double planes[5][4] = { { across, 0, up, side },
+                                      { -across, 0, up, side },
+                                      { 0, across, up, side },
+                                      { 0, -across, up, side },
+                                      { 0, 0, -1, below - r } };
         char why[PP_MESSAGE_SIZE];
         pp_particle_free(pyramid);
         if (pp_particle_new(&planes[0][0], 5, r, k, 0.75 * SIZE, &pyramid, why, sizeof why) != PP_OK) {
@@ -86,7 +89,8 @@ static void place(void) {
     for (int i = 0; i < BODIES; i++) {
         const double cell = 0.17, at[3] = {cell * (i % 4 - 1.5), cell * (i / 4 % 4 - 1.5), cell * (i / 16 + 0.7)};
         pp_pose pose = {{at[0], at[1], at[2]}, {uniform(), uniform(), uniform(), uniform()}};
-        const double length = sqrt(pose.orientation[0] * pose.orientation[0] + dot(pose.orientation + 1, pose.orientation + 1));
+        const double length = sqrt(pose.orientation[0] * pose.orientation[0]
+                                   + dot(pose.orientation + 1, pose.orientation + 1));
         for (int c = 0; c < 4; c++)
             pose.orientation[c] /= length;
         poses[i] = pose;
@@ -119,7 +123,8 @@ static void push(int i, const double *force, double sense, const double *arm) {
 }
 
 /* The law of a contact: body i pushes body j along the normal, which runs from i to j. */
-static void contact_force(int i, const double *arm_i, int j, const double *arm_j, const double *normal, double overlap) {
+static void contact_force(int i, const double* arm_i, int j, const double* arm_j, const double* normal, double overlap)
+{
     double of_i[3], of_j[3], sliding[3], force[3];
     velocity_at(i, arm_i, of_i);
     velocity_at(j, arm_j, of_j);
@@ -137,7 +142,7 @@ static void contact_force(int i, const double *arm_i, int j, const double *arm_j
     push(i, force, -1, arm_i);
 }
 
-/* All pairs in one call; most are rejected by their bounding spheres. A larger code gives those of its neighbour search. */
+/* All pairs in one call; most are rejected by their bounding spheres. A larger code has a neighbour search. */
 static int pair_forces(void) {
     static uint32_t pairs[2 * PAIRS];
     static pp_pair_state states[PAIRS];
@@ -147,13 +152,14 @@ static int pair_forces(void) {
         for (uint32_t i = 0, n = 0; i < BODIES; i++)
             for (uint32_t j = i + 1; j < BODIES; j++, n++)
                 pairs[2 * n] = i, pairs[2 * n + 1] = j;
-    check(pp_contact_detect_batch(particles, poses, BODIES, pairs, PAIRS, NULL, 1, states, contacts, statuses), "pairs");
+    check(pp_contact_detect_batch(particles, poses, BODIES, pairs, PAIRS, NULL, 1, states, contacts, statuses),
+          "pairs");
     int touching = 0;
     for (int n = 0; n < PAIRS; n++) {
         check(statuses[n], "pair");
         if (contacts[n].kind == PP_OVERLAPPING) {
-            contact_force((int)pairs[2 * n], contacts[n].branch_a, (int)pairs[2 * n + 1], contacts[n].branch_b, contacts[n].normal,
-                          contacts[n].overlap);
+            contact_force((int)pairs[2 * n], contacts[n].branch_a, (int)pairs[2 * n + 1], contacts[n].branch_b,
+                          contacts[n].normal, contacts[n].overlap);
             touching++;
         }
     }
@@ -161,8 +167,11 @@ static int pair_forces(void) {
 }
 
 static int wall_forces(void) {
-    const double walls[WALLS][2][3] = {{{0, 0, 0}, {0, 0, 1}}, {{-HALF_WIDTH, 0, 0}, {1, 0, 0}}, {{HALF_WIDTH, 0, 0}, {-1, 0, 0}},
-                                       {{0, -HALF_WIDTH, 0}, {0, 1, 0}}, {{0, HALF_WIDTH, 0}, {0, -1, 0}}};
+    const double walls[WALLS][2][3] = { { { 0, 0, 0 }, { 0, 0, 1 } },
+                                        { { -HALF_WIDTH, 0, 0 }, { 1, 0, 0 } },
+                                        { { HALF_WIDTH, 0, 0 }, { -1, 0, 0 } },
+                                        { { 0, -HALF_WIDTH, 0 }, { 0, 1, 0 } },
+                                        { { 0, HALF_WIDTH, 0 }, { 0, -1, 0 } } };
     int touching = 0;
     for (int i = 0; i < BODIES; i++)
         for (int w = 0; w < WALLS; w++) {
@@ -227,13 +236,15 @@ int main(void) {
             double height = 0.0;
             for (int i = 0; i < BODIES; i++)
                 height += poses[i].position[2] / BODIES;
-            printf("  %7.2f   %17d   %8d   %17.3g   %14.4f\n", step * TIME_STEP, pairs, walls, kinetic_energy(), height);
+            printf("  %7.2f   %17d   %8d   %17.3g   %14.4f\n", step * TIME_STEP, pairs, walls, kinetic_energy(),
+                   height);
         }
         move();
     }
     int lost = 0;
     for (int i = 0; i < BODIES; i++)
-        lost += !(poses[i].position[2] > 0.0 && fmax(fabs(poses[i].position[0]), fabs(poses[i].position[1])) < HALF_WIDTH);
+        lost += !(poses[i].position[2] > 0.0
+                  && fmax(fabs(poses[i].position[0]), fabs(poses[i].position[1])) < HALF_WIDTH);
     const double energy = kinetic_energy();
     pp_particle_free(pyramid);
     printf("%d lost, %s\n", lost, energy < 0.05 ? "at rest" : "still moving");

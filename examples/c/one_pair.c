@@ -37,7 +37,8 @@ int main(void) {
     if (contact.kind == PP_OVERLAPPING) {
         double area;
         printf("overlap %g, s = %.12g within %.0e\n", contact.overlap, contact.s, contact.gap);
-        printf("normal  %g %g %g, from the lower cube to the upper\n", contact.normal[0], contact.normal[1], contact.normal[2]);
+        printf("normal  %g %g %g, from the lower cube to the upper\n", contact.normal[0], contact.normal[1],
+               contact.normal[2]);
         printf("point   %g %g %g\n", contact.point[0], contact.point[1], contact.point[2]);
         if (pp_contact_area(cube, &lower, cube, &upper, &contact, 1e-6, &area) == PP_OK)
             printf("area    %g\n", area);

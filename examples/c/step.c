@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: MIT OR Apache-2.0
  *
- * One step of 1,000 bodies: all their pairs in one call, on two threads, first from nothing and then from the states that it left.
+ * One step of 1,000 bodies: all their pairs in one call, on two threads, first from nothing and then from the states
+ * that it left.
  *
  *     cc step.c $(pkg-config --cflags --libs potential-particles) -lm -o step
  */
@@ -17,7 +18,8 @@ static size_t neighbours(uint32_t *pairs) {
     size_t count = 0;
     for (int i = 0; i < BODIES; i++)
         for (int step = 0; step < 27; step++) {
-            const int x = i % SIDE + step % 3 - 1, y = i / SIDE % SIDE + step / 3 % 3 - 1, z = i / (SIDE * SIDE) + step / 9 - 1;
+            const int x = i % SIDE + step % 3 - 1, y = i / SIDE % SIDE + step / 3 % 3 - 1,
+                      z = i / (SIDE * SIDE) + step / 9 - 1;
             const int j = x + SIDE * (y + SIDE * z);
             if (x < 0 || y < 0 || z < 0 || x >= SIDE || y >= SIDE || z >= SIDE || j <= i)
                 continue;
@@ -31,7 +33,8 @@ static size_t neighbours(uint32_t *pairs) {
 static double uniform(void) { return 2.0 * rand() / RAND_MAX - 1.0; }
 
 int main(void) {
-    const double h = 0.5 - 0.05, planes[6][4] = {{1, 0, 0, h}, {-1, 0, 0, h}, {0, 1, 0, h}, {0, -1, 0, h}, {0, 0, 1, h}, {0, 0, -1, h}};
+    const double h = 0.5 - 0.05, planes[6][4] = { { 1, 0, 0, h },  { -1, 0, 0, h }, { 0, 1, 0, h },
+                                                  { 0, -1, 0, h }, { 0, 0, 1, h },  { 0, 0, -1, h } };
     char why[PP_MESSAGE_SIZE];
     pp_particle *cube;
     if (pp_particle_new(&planes[0][0], 6, 0.05, 0.0, 1.0, &cube, why, sizeof why) != PP_OK) {
@@ -53,7 +56,8 @@ int main(void) {
     const size_t count = neighbours(pairs);
     for (int step = 0; step < 2; step++) {
         /* The call itself fails only if nothing was done; each pair has a status of its own. */
-        const pp_status status = pp_contact_detect_batch(particles, poses, BODIES, pairs, count, NULL, 2, states, contacts, statuses);
+        const pp_status status = pp_contact_detect_batch(particles, poses, BODIES, pairs, count, NULL, 2, states,
+                                                         contacts, statuses);
         if (status != PP_OK) {
             fprintf(stderr, "step: %s\n", pp_status_message(status));
             return 1;

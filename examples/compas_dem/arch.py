@@ -40,5 +40,7 @@ for edge in results.edges():
 total = [sum(one[i] for one in reactions) for i in range(3)]
 crown = results.displacement(blocks[len(blocks) // 2].graphnode)
 print(f"{results.metadata['steps']} steps, unbalanced force {results.metadata['unbalanced']:.1e}")
-print(f"weight {weight:.0f} N, supports carry {total[2]:.0f} N, thrust {abs(reactions[0][0]):.0f} N, crown moves by {crown[2] * 1e6:.1f} um")
+print(
+    f"weight {weight:.0f} N, supports carry {total[2]:.0f} N, thrust {abs(reactions[0][0]):.0f} N, crown moves by {crown[2] * 1e6:.1f} um"
+)
 assert abs(total[2] / weight - 1.0) < 0.01

@@ -4,8 +4,9 @@
     import backend
     results = backend.solve(problem)          # in the place of problem.solve()
 
-compas_dem takes the names of its own solvers alone (Problem.solve), so that another one is called beside it. compas_dem runs in an environment of its own,
-with its own numpy; YADE in another process, in the system's Python: blocks.py beside this file. They talk by files.
+compas_dem takes the names of its own solvers alone (Problem.solve), so that another one is called beside it. compas_dem
+runs in an environment of its own, with its own numpy; YADE in another process, in the system's Python: blocks.py beside
+this file. They talk by files.
 """
 import json
 import os
@@ -25,12 +26,15 @@ GRAVITY = 9.81
 def solve(problem, stiffness=1e10, rounding=0.002, rest=1e-4, longest=5.0, yade="yade"):
     """The Results of a Problem: how each block has moved when all are at rest, and the force in each joint.
 
-    stiffness: of a joint per area, N/m^3. rounding: of edges and corners, m. rest: greatest unbalanced force over the mean force of the joints, at which the
-    blocks are at rest. longest: seconds of the simulated time until then; RuntimeError where they are not at rest by then, as when they fall.
+    stiffness: of a joint per area, N/m^3. rounding: of edges and corners, m. rest: greatest unbalanced force over the
+    mean force of the joints, at which the blocks are at rest. longest: seconds of the simulated time until then;
+    RuntimeError where they are not at rest by then, as when they fall.
     """
     model, conditions = problem.model, problem.boundary_conditions
     problem._check_model_validity(model)
-    if any(any(value) for one in resolve_centroidal_displacements(conditions).values() for part in one.values() for value in [part or []]):
+    if any(
+            any(value) for one in resolve_centroidal_displacements(conditions).values() for part in one.values()
+            for value in [part or []]):
         raise ValueError("prescribed displacements are not served: only loads, and supports that stay where they are")
     loads = resolve_centroidal_loads(model, conditions)
     friction = problem.contact_properties.contact_model
@@ -41,9 +45,15 @@ def solve(problem, stiffness=1e10, rounding=0.002, rest=1e-4, longest=5.0, yade=
         vertices, _ = block.modelgeometry.to_vertices_and_faces()
         load = loads[block.graphnode]
         density = 1.0 if block.is_support and not block.material else block.material.density
-        blocks.append({"node": block.graphnode, "vertices": [list(map(float, v)) for v in vertices], "fixed": bool(block.is_support),
-                       "density": density, "force": list(load["force"]), "moment": list(load["moment"])})
-    task = {"blocks": blocks, "friction": friction.mu, "stiffness": stiffness, "rounding": rounding, "rest": rest, "longest": longest, "gravity": GRAVITY}
+        blocks.append({
+            "node": block.graphnode, "vertices": [list(map(float, v)) for v in vertices],
+            "fixed": bool(block.is_support), "density": density, "force": list(load["force"]),
+            "moment": list(load["moment"])
+        })
+    task = {
+        "blocks": blocks, "friction": friction.mu, "stiffness": stiffness, "rounding": rounding, "rest": rest,
+        "longest": longest, "gravity": GRAVITY
+    }
     with tempfile.TemporaryDirectory() as folder:
         given, found = Path(folder) / "task.json", Path(folder) / "answer.json"
         given.write_text(json.dumps(task))
@@ -55,8 +65,9 @@ def solve(problem, stiffness=1e10, rounding=0.002, rest=1e-4, longest=5.0, yade=
             raise RuntimeError(f"YADE ended without an answer: {(ended.stderr or ended.stdout).strip()[-500:]}")
         answer = json.loads(found.read_text())
     if answer["unbalanced"] > rest:
-        raise RuntimeError(f"not at rest after {longest:g} s: unbalanced force {answer['unbalanced']:.1e} (rest={rest:g}), fastest block "
-                           f"{answer['fastest']:.1e} m/s; blocks that fall have no equilibrium")
+        raise RuntimeError(
+            f"not at rest after {longest:g} s: unbalanced force {answer['unbalanced']:.1e} (rest={rest:g}), fastest block "
+            f"{answer['fastest']:.1e} m/s; blocks that fall have no equilibrium")
     return _results(problem, model, answer)
 
 
@@ -77,7 +88,10 @@ def _results(problem, model, answer):
         results.set_edge(edge, "contact_points", [list(p) for p in corners])
         results.set_edge(edge, "contact_frame", frame)
         # Of the whole joint at the centre of its pressure, on the first node of the edge.
-        shares = [{"c_np": abs(local[2]) / max(len(corners), 1), "c_nn": 0.0, "c_u": local[0] / max(len(corners), 1), "c_v": local[1] / max(len(corners), 1)}] * len(corners)
+        shares = [{
+            "c_np": abs(local[2]) / max(len(corners), 1), "c_nn": 0.0, "c_u": local[0] / max(len(corners), 1),
+            "c_v": local[1] / max(len(corners), 1)
+        }] * len(corners)
         if is_face:
             results.set_edge(edge, "contact_polygon", cg.Polygon(corners))
             data = FrictionContact(points=corners, forces=shares)
@@ -90,5 +104,6 @@ def _results(problem, model, answer):
         results.set_edge(edge, "resultant_global", list(force))
         results.set_edge(edge, "resultant_local", local)
         results.set_edge(edge, "force_magnitude", force.length)
-    results.metadata.update(mu=answer["friction"], seconds=answer["seconds"], steps=answer["steps"], unbalanced=answer["unbalanced"])
+    results.metadata.update(mu=answer["friction"], seconds=answer["seconds"], steps=answer["steps"],
+                            unbalanced=answer["unbalanced"])
     return results

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The blocks of backend.py come to rest in YADE; reads the file TASK and writes the file ANSWER. Run it inside YADE: yade -x -n -j1 blocks.py"""
+"""The blocks of backend.py come to rest in YADE; reads the file TASK and writes the file ANSWER. Run it inside YADE:
+yade -x -n -j1 blocks.py
+"""
 import json
 import math
 import os
@@ -12,7 +14,9 @@ from scipy.spatial import ConvexHull
 from yade import utils
 
 PART = 0.02  # s of the simulated time between looks whether the blocks are at rest
-GAP = 1e-7  # between faces at the start, as a share of the size: no contact is then one of rounding, there in one step and gone in the next
+# Between faces at the start, as a share of the size: no contact is then one of rounding, there in one step and gone in
+# the next.
+GAP = 1e-7
 RISE = 0.2  # s in which weight and loads come up
 
 task = json.load(open(os.environ["TASK"]))
@@ -21,8 +25,9 @@ materials, nodes, frames = {}, {}, {}
 for block in task["blocks"]:
     density = block["density"]
     if density not in materials:
-        materials[density] = O.materials.append(ConicJointMat(
-            density=density, normalStiffness=task["stiffness"], shearStiffness=0.5 * task["stiffness"], frictionAngle=math.atan(task["friction"]), restitution=0.3))
+        materials[density] = O.materials.append(
+            ConicJointMat(density=density, normalStiffness=task["stiffness"], shearStiffness=0.5 * task["stiffness"],
+                          frictionAngle=math.atan(task["friction"]), restitution=0.3))
     corners = np.array(block["vertices"])
     corners = corners.mean(0) + (1.0 - GAP) * (corners - corners.mean(0))
     shape = shapes.from_vertices(corners, rounding=task["rounding"] / size(corners), k=0)
@@ -32,7 +37,8 @@ for block in task["blocks"]:
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([PotentialParticle2AABB()], verletDist=0),
-    ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(patch=True)], [Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()], [Law2_ScGeomConicPP_ConicJointPhys()]),
+    ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(patch=True)], [Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
+                         [Law2_ScGeomConicPP_ConicJointPhys()]),
     NewtonIntegrator(damping=0.4, exactAsphericalRot=True),
 ]
 O.dt = potential_particles.critical_time_step()
@@ -82,9 +88,13 @@ for contact in O.interactions:
     rim = outline_of(contact, np.array(normal))
     # On the first block: what pushes it away from the second one.
     force = -(contact.phys.normalForce + contact.phys.shearForce)
-    joints.append({"nodes": [nodes[contact.id1]["node"], nodes[contact.id2]["node"]], "corners": rim.tolist(), "point": list(contact.geom.contactPoint),
-                   "normal": list(-normal), "force": list(force)})
-answer = {"blocks": blocks, "joints": joints, "friction": task["friction"], "unbalanced": unbalanced, "seconds": O.time, "steps": O.iter,
-          "fastest": max(body.state.vel.norm() for body in O.bodies)}
+    joints.append({
+        "nodes": [nodes[contact.id1]["node"], nodes[contact.id2]["node"]], "corners": rim.tolist(),
+        "point": list(contact.geom.contactPoint), "normal": list(-normal), "force": list(force)
+    })
+answer = {
+    "blocks": blocks, "joints": joints, "friction": task["friction"], "unbalanced": unbalanced, "seconds": O.time,
+    "steps": O.iter, "fastest": max(body.state.vel.norm() for body in O.bodies)
+}
 with open(os.environ["ANSWER"], "w") as file:
     json.dump(answer, file)

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A particle fitted to a scanned grain: normals and offsets of its planes, r and k, by the derivatives of contacts in the shape.
+"""A particle fitted to a scanned grain: normals and offsets of its planes, r and k, by the derivatives of contacts in
+the shape.
 
     python3 examples/derivatives/grain.py [folder]
 
-The scan, 600 points with normals and a noise of 0.3 % of the size, is that of a superellipsoid with a bump. Seen from a point c outside, the surface
-is at the distance rho*s_b, the scale of a ball about c at its closest point on the particle (formulation "closest"). Least squares on
-these distances, by Gauss-Newton (scipy), with rows of the Jacobian from contact_gradient. Needs the wheel, scipy, matplotlib.
+The scan, 600 points with normals and a noise of 0.3 % of the size, is that of a superellipsoid with a bump. Seen from a
+point c outside, the surface is at the distance rho*s_b, the scale of a ball about c at its closest point on the
+particle (formulation "closest"). Least squares on these distances, by Gauss-Newton (scipy), with rows of the Jacobian
+from contact_gradient. Needs the wheel, scipy, matplotlib.
 """
 import sys
 
@@ -77,7 +79,9 @@ def main(folder="."):
     found = least_squares(fit.residuals, start, fit.jacobian, method="lm", max_nfev=60)
     particle, before, after = shape(found.x), fit.residuals(start), found.fun
     rms = lambda e: float(np.sqrt(np.mean(e**2)))
-    print(f"rms distance {rms(before):.4f} -> {rms(after):.5f} (noise {NOISE}) in {found.njev} Jacobians; r = {particle.r:.3f}, k = {particle.k:.3f}")
+    print(
+        f"rms distance {rms(before):.4f} -> {rms(after):.5f} (noise {NOISE}) in {found.njev} Jacobians; r = {particle.r:.3f}, k = {particle.k:.3f}"
+    )
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -86,7 +90,8 @@ def main(folder="."):
         axes = figure.add_subplot(1, 2, i + 1, projection="3d")
         mesh = shape(p).mesh(0.01)
         axes.plot_trisurf(*mesh.vertices.T, triangles=mesh.triangles.astype(int), color="0.8", alpha=0.5, linewidth=0)
-        dots = axes.scatter(*points.T, c=errors, s=5, cmap="coolwarm", vmin=-0.02 if i else -0.2, vmax=0.02 if i else 0.2)
+        dots = axes.scatter(*points.T, c=errors, s=5, cmap="coolwarm", vmin=-0.02 if i else -0.2,
+                            vmax=0.02 if i else 0.2)
         figure.colorbar(dots, shrink=0.6, label="distance")
         axes.set(title=f"{title}: rms {rms(errors):.4f}", aspect="equal")
     figure.tight_layout()

@@ -3,10 +3,10 @@
 
     python3 examples/derivatives/run_out.py [folder]
 
-A block slides (it does not turn) down a slope of 12 degrees from 2 m/s until friction stops it, on a contact with spring, damper and Coulomb's
-friction. Beside its state the loop carries the derivative of the state in the coefficient mu, for which boundary_derivatives gives that of the
-overlap and the normal in the pose. From the measured run-out Newton's method finds mu; closed form: v^2 / (2 g (mu cos - sin)).
-Needs the wheel, matplotlib.
+A block slides (it does not turn) down a slope of 12 degrees from 2 m/s until friction stops it, on a contact with
+spring, damper and Coulomb's friction. Beside its state the loop carries the derivative of the state in the coefficient
+mu, for which boundary_derivatives gives that of the overlap and the normal in the pose. From the measured run-out
+Newton's method finds mu; closed form: v^2 / (2 g (mu cos - sin)). Needs the wheel, matplotlib.
 """
 import sys
 
@@ -75,7 +75,8 @@ def main(folder="."):
         axes.plot(*history.T, lw=1, label=f"{mu:.4f}")
     axes.axvline(measured, color="0.6", ls=":")
     axes.legend(title="mu", ncols=2, fontsize=8)
-    axes.set(xlabel="way down the slope (m)", ylabel="speed (m/s)", title="run-outs on the way to the measured one (dotted)")
+    axes.set(xlabel="way down the slope (m)", ylabel="speed (m/s)",
+             title="run-outs on the way to the measured one (dotted)")
     figure.tight_layout()
     figure.savefig(f"{folder}/derivatives_run_out.png", dpi=110)
 

@@ -18,7 +18,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut states = vec![PairState::default(); pairs.len()];
     for step in 0..2 {
         let poses = cells.iter().map(|&cell| pose(cell, step)).collect::<Result<Vec<_>, _>>()?;
-        // The call itself fails only if nothing was done; each pair has a result of its own, where an error is not "apart".
+        // The call itself fails only if nothing was done; each pair has a result of its own, where an error is not
+        // "apart".
         let contacts = detect_batch(&particles, &poses, &pairs, &Settings::default(), THREADS, &mut states)?;
         let found: Vec<_> = contacts.iter().flatten().collect();
         let solved = found.iter().filter(|one| !one.flags.contains(Flags::REJECTED)).count();

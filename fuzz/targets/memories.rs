@@ -1,4 +1,5 @@
-//! A pair from a memory of any bytes: where it has an answer without, it has the same one with it, and with what is remembered after.
+//! A pair from a memory of any bytes: where it has an answer without, it has the same one with it, and with what is
+//! remembered after.
 
 use super::bytes::Bytes;
 use super::detect::pose;

@@ -1,4 +1,5 @@
-//! Particles of the plane of any numbers: refused, or pairs whose answers hold together, and batches that are single calls.
+//! Particles of the plane of any numbers: refused, or pairs whose answers hold together, and batches that are single
+//! calls.
 
 use super::bytes::Bytes;
 use super::whole::Whole;

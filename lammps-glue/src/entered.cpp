@@ -61,23 +61,28 @@ void endWhereAny(LAMMPS* lmp, const std::string& why)
     lmp->error->all(FLERR, told);
 }
 
-double numberIn(LAMMPS* lmp, const std::string& command, const std::string& what, const char* text, double low, double high, bool orZero)
+double numberIn(LAMMPS* lmp, const std::string& command, const std::string& what, const char* text, double low,
+                double high, bool orZero)
 {
     const double value = utils::numeric(FLERR, text, false, lmp);
     if (!((value >= low && value <= high) || (orZero && value == 0)))
-        lmp->error->all(FLERR, "{}: {} = {}: it must {}lie in [{}, {}]", command, what, text, orZero ? "be 0 or " : "", low, high);
+        lmp->error->all(FLERR, "{}: {} = {}: it must {}lie in [{}, {}]", command, what, text, orZero ? "be 0 or " : "",
+                        low, high);
     return value;
 }
 
 double numberOf(const std::string& word)
 {
     double value = NAN;
-    const char *first = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-'), *last = word.data() + word.size();
+    const char *first = word.data() + (word.size() > 1 && word[0] == '+' && word[1] != '-'),
+               *last = word.data() + word.size();
     const auto [end, error] = std::from_chars(first, last, value);
     if (end != last || error == std::errc::invalid_argument)
         return NAN;
     // What is beyond a double: to infinity, or to nothing.
-    return error == std::errc() ? value : word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? 0.0 : INFINITY;
+    return error == std::errc()                                                        ? value
+        : word.find("e-") != std::string::npos || word.find("E-") != std::string::npos ? 0.0
+                                                                                       : INFINITY;
 }
 
 std::string fileForAll(LAMMPS* lmp, const std::string& path)

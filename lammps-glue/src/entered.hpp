@@ -9,17 +9,20 @@
 
 namespace potential_particles {
 
-// No number of a command is larger, nor is one that must be above 0 smaller than its inverse: products of three are finite.
+// No number of a command is larger, nor is one that must be above 0 smaller than its inverse: products of three are
+// finite.
 constexpr double bearable = 1e100;
 
-// The number that `text` is; ends LAMMPS, in the name of `command`, where it is none or lies outside [low, high]. 0 counts as inside where `orZero`.
-double numberIn(LAMMPS_NS::LAMMPS* lmp, const std::string& command, const std::string& what, const char* text, double low = -bearable, double high = bearable,
-    bool orZero = false);
+// The number that `text` is; ends LAMMPS, in the name of `command`, where it is none or lies outside [low, high]. 0
+// counts as inside where `orZero`.
+double numberIn(LAMMPS_NS::LAMMPS* lmp, const std::string& command, const std::string& what, const char* text,
+                double low = -bearable, double high = bearable, bool orZero = false);
 
 // Of a file, whatever the locale; NaN where the whole word is no number.
 double numberOf(const std::string& word);
 
-// Called by all ranks: where one has a reason, all end with that of the lowest. (An error of one rank alone ends the others before they, and maybe it, have said so.)
+// Called by all ranks: where one has a reason, all end with that of the lowest. (An error of one rank alone ends the
+// others before they, and maybe it, have said so.)
 void endWhereAny(LAMMPS_NS::LAMMPS* lmp, const std::string& why);
 
 // Bytes of a file that rank 0 reads for all; ends LAMMPS on all ranks where it cannot be read.

@@ -55,7 +55,8 @@ void FixNve::push()
     for (int i = 0; i < atom->nlocal; ++i) {
         if (!(atom->mask[i] & groupbit))
             continue;
-        const Vector3d moments = atom->rmass[i] / shapes->shape(atom->type[i]).volume * shapes->shape(atom->type[i]).moments;
+        const Vector3d moments = atom->rmass[i] / shapes->shape(atom->type[i]).volume
+            * shapes->shape(atom->type[i]).moments;
         const Eigen::Matrix3d at = quaternion(q[i]).toRotationMatrix();
         Map<Vector3d> v(atom->v[i]), turn(atom->omega[i]);
         v += half / atom->rmass[i] * Map<Vector3d>(atom->f[i]);

@@ -2,8 +2,9 @@
 //
 // fix ID group nve/potential/particle
 //
-// Velocity Verlet for bodies with principal moments of inertia: forces and torques in half steps, free motion between (rotation.hpp). Its scalar is
-// the kinetic energy of rotation of the group. LAMMPS's fix nve/asphere takes ellipsoids' orientations and inertia, which this has not.
+// Velocity Verlet for bodies with principal moments of inertia: forces and torques in half steps, free motion between
+// (rotation.hpp). Its scalar is the kinetic energy of rotation of the group. LAMMPS's fix nve/asphere takes ellipsoids'
+// orientations and inertia, which this has not.
 #pragma once
 
 #include "fix.h"

@@ -32,9 +32,12 @@ FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
     if (count < 8)
         error->all(FLERR, "fix {}: expected FILE type T NAME DENSITY ... [orient random SEED]", styleName);
     if (!atom->radius_flag || !atom->rmass_flag || !atom->omega_flag || !atom->torque_flag)
-        error->all(FLERR, "fix {}: atoms have no radius, mass, angular velocity or torque of their own: use atom_style sphere", styleName);
+        error->all(FLERR,
+                   "fix {}: atoms have no radius, mass, angular velocity or torque of their own: use atom_style sphere",
+                   styleName);
     if (force->ftm2v != 1.0)
-        error->all(FLERR, "fix {}: units in which force is not mass times acceleration: use units si, cgs or lj", styleName);
+        error->all(FLERR, "fix {}: units in which force is not mass times acceleration: use units si, cgs or lj",
+                   styleName);
     const std::string path = arguments[3];
     try {
         shapes = readShapes(fileForAll(lmp, path), path);
@@ -56,7 +59,8 @@ FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
             }
             if (found < 0)
                 error->all(FLERR, "fix {}: {} has no shape {}: it has{}", styleName, path, arguments[i + 2], names);
-            const double density = numberIn(lmp, std::string("fix ") + styleName, "density", arguments[i + 3], 1 / bearable);
+            const double density = numberIn(lmp, std::string("fix ") + styleName, "density", arguments[i + 3],
+                                            1 / bearable);
             for (int type = low; type <= high; ++type) {
                 ofType[type] = found;
                 densities[type] = density;
@@ -67,14 +71,17 @@ FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
             seed = static_cast<unsigned long long>(utils::bnumeric(FLERR, arguments[i + 2], false, lmp));
             i += 3;
         } else
-            error->all(FLERR, "fix {}: '{}': expected type T NAME DENSITY, or orient random SEED", styleName, arguments[i]);
+            error->all(FLERR, "fix {}: '{}': expected type T NAME DENSITY, or orient random SEED", styleName,
+                       arguments[i]);
     }
     for (int type = 1; type <= atom->ntypes; ++type) {
         if (ofType[type] < 0)
             error->all(FLERR, "fix {}: type {} has no shape: add 'type {} NAME DENSITY'", styleName, type, type);
         if (!(massOf(type) >= 1 / bearable && massOf(type) * shape(type).radius * shape(type).radius <= bearable))
-            error->all(FLERR, "fix {}: type {} has the mass {} and the radius {}: masses must be above 1e-100, and moments of inertia below 1e100", styleName, type, massOf(type),
-                shape(type).radius);
+            error->all(FLERR,
+                       "fix {}: type {} has the mass {} and the radius {}: masses must be above 1e-100, and moments of "
+                       "inertia below 1e100",
+                       styleName, type, massOf(type), shape(type).radius);
     }
     atom->add_callback(Atom::GROW);
 }
@@ -95,8 +102,8 @@ void FixShapes::post_constructor()
     if (atom->find_custom(property, isDouble, columns) < 0)
         modify->add_fix(fmt::format("{} all property/atom d2_{} 4 writedata yes", property, property));
     else if (!isDouble || columns != 4)
-        error->all(FLERR, "fix {}: the property {} is not d2_{} 4: define it as 'fix {} all property/atom d2_{} 4'", styleName, property, property,
-            property, property);
+        error->all(FLERR, "fix {}: the property {} is not d2_{} 4: define it as 'fix {} all property/atom d2_{} 4'",
+                   styleName, property, property, property, property);
 }
 
 double** FixShapes::orientations() const
@@ -122,7 +129,8 @@ std::string FixShapes::whyNotOriented(double* quaternion, tagint tag) const
         }
     }
     if (!(q.norm() > 1e-150 && q.norm() < 1e150))
-        return fmt::format("fix {}: atom {} has the orientation {} {} {} {}: it must be a quaternion w x y z", styleName, tag, q[0], q[1], q[2], q[3]);
+        return fmt::format("fix {}: atom {} has the orientation {} {} {} {}: it must be a quaternion w x y z",
+                           styleName, tag, q[0], q[1], q[2], q[3]);
     if (std::abs(q.squaredNorm() - 1) > 1e-14) // an orientation that was restarted keeps its bits
         q.normalize();
     return "";
@@ -133,7 +141,8 @@ void FixShapes::init()
     if (modify->get_fix_by_style(std::string("^") + styleName + "$").size() > 1)
         error->all(FLERR, "fix {}: there are two of them: give all types in one", styleName);
     if (ofType.size() != static_cast<size_t>(atom->ntypes) + 1)
-        error->all(FLERR, "fix {}: the number of atom types has changed: give the fix after the box is made", styleName);
+        error->all(FLERR, "fix {}: the number of atom types has changed: give the fix after the box is made",
+                   styleName);
     checkRun();
     double** q = orientations();
     std::string why;
@@ -147,11 +156,17 @@ void FixShapes::init()
 void FixShapes::checkRun() const
 {
     if (update->whichflag == 2)
-        error->all(FLERR, "fix {}: minimize does not turn bodies: let them come to rest in a run, with a restitution below 1 or fix viscous", styleName);
+        error->all(FLERR,
+                   "fix {}: minimize does not turn bodies: let them come to rest in a run, with a restitution below 1 "
+                   "or fix viscous",
+                   styleName);
     if (lmp->input->command && !strcmp(lmp->input->command, "rerun"))
         error->all(FLERR, "fix {}: rerun reads no orientations: run again from a restart file", styleName);
     if (utils::strmatch(update->integrate_style, "^respa"))
-        error->all(FLERR, "fix {}: run_style respa has several time steps for the forces of one contact: use 'run_style verlet'", styleName);
+        error->all(
+            FLERR,
+            "fix {}: run_style respa has several time steps for the forces of one contact: use 'run_style verlet'",
+            styleName);
     if (!(update->dt >= 0 && update->dt <= bearable))
         error->all(FLERR, "fix {}: timestep = {}: it must lie in [0, 1e100]", styleName, update->dt);
 }
@@ -176,8 +191,10 @@ std::string FixShapes::whyNotOfItsType() const
     for (int i = 0; i < atom->nlocal; ++i) {
         const int type = atom->type[i];
         if (atom->radius[i] != shape(type).radius || atom->rmass[i] != massOf(type))
-            return fmt::format("fix {}: atom {} of type {} has the radius {} and the mass {}, its shape {} has {} and {}: change types between runs, and leave out 'pre no'",
-                styleName, atom->tag[i], type, atom->radius[i], atom->rmass[i], shape(type).name, shape(type).radius, massOf(type));
+            return fmt::format("fix {}: atom {} of type {} has the radius {} and the mass {}, its shape {} has {} and "
+                               "{}: change types between runs, and leave out 'pre no'",
+                               styleName, atom->tag[i], type, atom->radius[i], atom->rmass[i], shape(type).name,
+                               shape(type).radius, massOf(type));
     }
     return "";
 }
@@ -224,7 +241,8 @@ FixShapes* FixShapes::of(LAMMPS* lmp, const std::string& asker)
 {
     const auto found = lmp->modify->get_fix_by_style(std::string("^") + styleName + "$");
     if (found.empty())
-        lmp->error->all(FLERR, "{}: no shapes are known: give 'fix ID all {} FILE type T NAME DENSITY' before", asker, styleName);
+        lmp->error->all(FLERR, "{}: no shapes are known: give 'fix ID all {} FILE type T NAME DENSITY' before", asker,
+                        styleName);
     return static_cast<FixShapes*>(found.front());
 }
 

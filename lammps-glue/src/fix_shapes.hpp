@@ -2,9 +2,10 @@
 //
 // fix ID all potential/particle/shapes FILE type T NAME DENSITY ... [orient random SEED]
 //
-// Which shape the atoms of a type have. Gives each atom its mass and the radius of its bounding ball, and keeps orientations, quaternions
-// w x y z, in LAMMPS's own custom property d2_orientation (fix property/atom), which migrates, restarts, and is read and written
-// by read_data, dump and set. An atom whose quaternion is 0 0 0 0 has none yet, and gets one: 1 0 0 0, or a random one.
+// Which shape the atoms of a type have. Gives each atom its mass and the radius of its bounding ball, and keeps
+// orientations, quaternions w x y z, in LAMMPS's own custom property d2_orientation (fix property/atom), which
+// migrates, restarts, and is read and written by read_data, dump and set. An atom whose quaternion is 0 0 0 0 has none
+// yet, and gets one: 1 0 0 0, or a random one.
 #pragma once
 
 #include "shape.hpp"

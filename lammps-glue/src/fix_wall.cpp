@@ -51,10 +51,13 @@ void FixWall::checkPlace() const
     for (const Plane& plane : planes)
         farthest = std::max(farthest, plane.point.lpNorm<Eigen::Infinity>());
     if (mesh)
-        farthest = std::max({ farthest, mesh->low().lpNorm<Eigen::Infinity>(), mesh->high().lpNorm<Eigen::Infinity>() });
+        farthest = std::max(
+            { farthest, mesh->low().lpNorm<Eigen::Infinity>(), mesh->high().lpNorm<Eigen::Infinity>() });
     if (farthest > mostRadii * shapes->smallestRadius())
-        error->all(FLERR, "fix {} {}: it has a coordinate of {}, beyond {} radii of the smallest body, {}: put it nearer to the origin", id, style, farthest, mostRadii,
-            shapes->smallestRadius());
+        error->all(FLERR,
+                   "fix {} {}: it has a coordinate of {}, beyond {} radii of the smallest body, {}: put it nearer to "
+                   "the origin",
+                   id, style, farthest, mostRadii, shapes->smallestRadius());
 }
 
 void FixWall::setup(int flags)
@@ -74,13 +77,15 @@ void FixWall::checkTimeStep()
     for (int i = 0; i < atom->nlocal && why.empty(); ++i) {
         const double most = 2 * std::sqrt(atom->rmass[i] / law.stiffest());
         if ((atom->mask[i] & groupbit) && (atom->mask[i] & moving) && update->dt > most)
-            why = fmt::format("{} {}: timestep = {}: a contact of atom {} is unstable above {}, and with levers well below: take {} or less", style, id, update->dt,
-                atom->tag[i], most, 0.1 * most);
+            why = fmt::format("{} {}: timestep = {}: a contact of atom {} is unstable above {}, and with levers well "
+                              "below: take {} or less",
+                              style, id, update->dt, atom->tag[i], most, 0.1 * most);
     }
     endWhereAny(lmp, why);
 }
 
-// A wall has no periodic images: what of a body reaches over a border does not meet the part of the wall at the other side.
+// A wall has no periodic images: what of a body reaches over a border does not meet the part of the wall at the other
+// side.
 void FixWall::checkBorder() const
 {
     if (comm->me != 0)
@@ -99,20 +104,30 @@ void FixWall::checkBorder() const
             ends |= mesh && std::abs((high ? mesh->high() : mesh->low())[d] - border) < reach;
         }
         if (ends)
-            error->warning(FLERR, "{} {}: the box is periodic in {}, the wall is not: bodies at the border do not meet the wall at the other side; "
-                "extend the mesh by {} beyond the border, or leave that border free", style, id, "xyz"[d], reach);
+            error->warning(FLERR,
+                           "{} {}: the box is periodic in {}, the wall is not: bodies at the border do not meet the "
+                           "wall at the other side; "
+                           "extend the mesh by {} beyond the border, or leave that border free",
+                           style, id, "xyz"[d], reach);
     }
 }
 
-double FixWall::timeNow() const { return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt; }
+double FixWall::timeNow() const
+{
+    return update->atime + static_cast<double>(update->ntimestep - update->atimestep) * update->dt;
+}
 
 FixWall::Frame FixWall::frameNow() const
 {
     const double time = lastTime - start;
-    return { Quaterniond(Eigen::AngleAxisd(std::fmod(rate * time, 2 * M_PI), axis)), centre + time * linear, linear, rate * axis };
+    return { Quaterniond(Eigen::AngleAxisd(std::fmod(rate * time, 2 * M_PI), axis)), centre + time * linear, linear,
+             rate * axis };
 }
 
-Vector3d FixWall::intoWall(const Frame& frame, const Vector3d& x) const { return centre + frame.turn.conjugate() * (x - frame.origin); }
+Vector3d FixWall::intoWall(const Frame& frame, const Vector3d& x) const
+{
+    return centre + frame.turn.conjugate() * (x - frame.origin);
+}
 
 const Triangle* FixWall::triangleOf(int element) const
 {
@@ -193,7 +208,8 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     const Vector3d position = intoWall(frame, Vector3d(atom->x[i]));
     const double* q = shapes->orientations()[i];
     const Quaterniond turned = frame.turn.conjugate() * Quaterniond(q[0], q[1], q[2], q[3]);
-    const pp_pose pose { { position[0], position[1], position[2] }, { turned.w(), turned.x(), turned.y(), turned.z() } };
+    const pp_pose pose { { position[0], position[1], position[2] },
+                         { turned.w(), turned.x(), turned.y(), turned.z() } };
     if (here.mark != shape.mark) {
         forget(here);
         here.mark = shape.mark;
@@ -201,8 +217,10 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
     here.way = travelled(here.way, wayBetween(here.last, pose, shape.radius));
     here.last = pose;
     if (!std::isfinite(here.way))
-        error->one(FLERR, "{}: atom {} has the position {} {} {}, orientation {} {} {} {}: they must be finite; a smaller timestep or softer contacts may help",
-            style, atom->tag[i], atom->x[i][0], atom->x[i][1], atom->x[i][2], q[0], q[1], q[2], q[3]);
+        error->one(FLERR,
+                   "{}: atom {} has the position {} {} {}, orientation {} {} {} {}: they must be finite; a smaller "
+                   "timestep or softer contacts may help",
+                   style, atom->tag[i], atom->x[i][0], atom->x[i][1], atom->x[i][2], q[0], q[1], q[2], q[3]);
     if (!(here.way < here.limit))
         lookAround(here, shape.radius);
     if (here.elements.empty()) {
@@ -219,7 +237,9 @@ void FixWall::meet(int i, const Frame& frame, bool advance)
             applyLaw(i, frame, advance, touched[n].found, now[slotOf[n]], here);
     // Where the body has left the wall, springs along it go with what they hold.
     for (const Known& old : here.known)
-        if (old.joint.touching && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.touches && k.element == old.element; }))
+        if (old.joint.touching && std::none_of(now.begin(), now.end(), [&](const Known& k) {
+                return k.touches && k.element == old.element;
+            }))
             own[changed] += old.joint.memory.energyAlong;
     for (Known& one : now)
         if (!one.touches) {
@@ -240,7 +260,8 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
             continue;
         const int element = one.element;
         const Triangle* const triangle = triangleOf(element);
-        const auto old = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
+        const auto old = std::find_if(here.known.begin(), here.known.end(),
+                                      [&](const Known& k) { return k.element == element; });
         Known next = old != here.known.end() ? *old : Known { element };
         const bool touchedBefore = next.touches;
         next.touches = false;
@@ -251,17 +272,21 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
         pp_flat_contact found;
         const auto detect = [&] {
             if (triangle)
-                return pp_contact_triangle(shape.particle.get(), &here.last, numbersOf(*triangle), &how, &next.state, &found);
+                return pp_contact_triangle(shape.particle.get(), &here.last, numbersOf(*triangle), &how, &next.state,
+                                           &found);
             const Plane& plane = planes[element];
-            return pp_contact_plane(shape.particle.get(), &here.last, plane.point.data(), plane.normal.data(), &how, &next.state, &found);
+            return pp_contact_plane(shape.particle.get(), &here.last, plane.point.data(), plane.normal.data(), &how,
+                                    &next.state, &found);
         };
         const pp_status status = fromNothingIfNew(detect(), found, touchedBefore, &next.state, detect);
         if (status != PP_OK) {
             const double *x = here.last.position, *q = here.last.orientation;
-            error->one(FLERR, "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {:.17g} {:.17g} {:.17g}, {:.17g} {:.17g} {:.17g} {:.17g}",
-                style, atom->tag[i], triangle ? "triangle" : "plane",
-                1 + element - (triangle ? static_cast<int>(planes.size()) : 0),
-                pp_status_message(status), shape.name, x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
+            error->one(FLERR,
+                       "{}: the contact of atom {} with {} {} failed: {}. Shape {}; pose in the wall's frame {:.17g} "
+                       "{:.17g} {:.17g}, {:.17g} {:.17g} {:.17g} {:.17g}",
+                       style, atom->tag[i], triangle ? "triangle" : "plane",
+                       1 + element - (triangle ? static_cast<int>(planes.size()) : 0), pp_status_message(status),
+                       shape.name, x[0], x[1], x[2], q[0], q[1], q[2], q[3]);
         }
         if (found.kind == PP_SEPARATED && found.distance > farShare * shape.radius) {
             one.wake = wakesAt(here.way, found.distance);
@@ -288,13 +313,15 @@ bool FixWall::leavesToAnother(const Touched& one, double radius) const
     });
 }
 
-void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact, Surroundings& here)
+void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact,
+                       Surroundings& here)
 {
     // A contact that comes over a seam takes its history along.
     if (!contact.history.touching)
         for (Known& left : here.known)
             if (left.history.touching && shareCorner(left.element, contact.element)
-                && std::none_of(now.begin(), now.end(), [&](const Known& k) { return k.touches && k.element == left.element; })) {
+                && std::none_of(now.begin(), now.end(),
+                                [&](const Known& k) { return k.touches && k.element == left.element; })) {
                 contact.history = left.history;
                 left.history.touching = false;
                 break;
@@ -326,7 +353,8 @@ void FixWall::push(int i, const Vector3d& onWall, const Vector3d& torque, const 
 }
 
 // In world axes.
-std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch, Known& contact, const pp_pose& pose) const
+std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch,
+                                            Known& contact, const pp_pose& pose) const
 {
     const pp_flat_contact& found = touch.found;
     const pp_particle* particle = shape.particle.get();
@@ -336,14 +364,16 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
     pp_status status;
     const Triangle* const triangle = triangleOf(touch.element);
     if (!triangle)
-        status = pp_patch_on_plane(particle, &pose, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0, nullptr);
+        status = pp_patch_on_plane(particle, &pose, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0,
+                                   nullptr);
     else {
         // The body stays on the side on which the contact began.
         const auto& [a, b, c] = *triangle;
         const Vector3d front = (b - a).cross(c - a);
-        const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal : Vector3d(found.normal);
-        status = pp_patch_on_triangle(particle, &pose, numbersOf(*triangle), towardsWall.dot(front) < 0, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr,
-            0, nullptr);
+        const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal
+                                                            : Vector3d(found.normal);
+        status = pp_patch_on_triangle(particle, &pose, numbersOf(*triangle), towardsWall.dot(front) < 0, &found,
+                                      patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0, nullptr);
     }
     const Vector3d x(atom->x[i]);
     const Eigen::Matrix3d turn = frame.turn.toRotationMatrix();
@@ -360,21 +390,27 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
     return PatchInStep { ContactPatch::disc(area, found.overlap, normal), x + turn * Vector3d(found.branch), normal };
 }
 
-void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch, Known& contact, const pp_pose& pose)
+void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch,
+                            Known& contact, const pp_pose& pose)
 {
     const double mass = atom->rmass[i];
     const double* q = shapes->orientations()[i];
-    JointBody body { Vector3d(atom->x[i]), Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(atom->v[i]), Vector3d(atom->omega[i]), {} };
+    JointBody body {
+        Vector3d(atom->x[i]), Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(atom->v[i]), Vector3d(atom->omega[i]), {}
+    };
     body.mass = { Vector3d::Constant(mass), mass / shape.volume * shape.moments, body.centre, body.turn };
     const JointBody wall { frame.origin, frame.turn, frame.velocity, frame.angularVelocity, {} };
     const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
     if (!contact.joint.touching)
         contact.joint.memory.broken = update->ntimestep >= wholeBefore;
-    const JointForces forces = jointForces(joint, contact.joint, body, wall, here, update->dt, advance, [](int) { return PosedShape {}; });
+    const JointForces forces = jointForces(joint, contact.joint, body, wall, here, update->dt, advance,
+                                           [](int) { return PosedShape {}; });
     const double square = 4 * mass / forces.normalStiffness;
     if (update->dt * update->dt > square)
-        error->one(FLERR, "{}: timestep = {}: the joint of atom {} with the wall, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
-            style, update->dt, atom->tag[i], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
+        error->one(FLERR,
+                   "{}: timestep = {}: the joint of atom {} with the wall, of stiffness {}, is unstable above {}, and "
+                   "with levers well below: take {} or less",
+                   style, update->dt, atom->tag[i], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
     push(i, forces.onOther.force, forces.onOne.torque, forces.energies);
 }
 

@@ -4,10 +4,11 @@
 //     [plane X Y Z NX NY NZ] ... [stl FILE [scale S]] [flat EPS] [linear VX VY VZ] [rotate X Y Z AX AY AZ PERIOD]
 //     [patch TOL [cohesion C] [residual FRICTION COHESION] [whole STEP]]
 //
-// Planes and one mesh, which may move together as one rigid body, from where the command says, from when it is given. Bodies are put into the frame of the wall,
-// so that its triangles are sorted into cells once, and planes and triangles that are apart sleep until the body has come as far. As a vector: contacts, elastic energy, energy that friction and dashpots took,
-// the force on the wall, and with `patch` the energy that patches took as they grew and shrank and that breaking took. Triangles then add up: each has
-// the pressure that lies on it.
+// Planes and one mesh, which may move together as one rigid body, from where the command says, from when it is given.
+// Bodies are put into the frame of the wall, so that its triangles are sorted into cells once, and planes and triangles
+// that are apart sleep until the body has come as far. As a vector: contacts, elastic energy, energy that friction and
+// dashpots took, the force on the wall, and with `patch` the energy that patches took as they grew and shrank and that
+// breaking took. Triangles then add up: each has the pressure that lies on it.
 #pragma once
 
 #include "plugin-common/point_law.hpp"
@@ -93,7 +94,8 @@ private:
         double format, mark, byPatch, motion[10], start, lastTime, contacts, sums[std::size(ofRun)];
     };
 
-    static constexpr int withoutContacts = 2; // numbers that pack() writes of an atom: how many contacts, and the mark of its shape
+    static constexpr int withoutContacts =
+        2; // numbers that pack() writes of an atom: how many contacts, and the mark of its shape
     int savedSize() const { return 1 + (byPatch ? countOfNumbers(JointHistory {}) : 9); } // of a contact
 
     Frame frameNow() const;
@@ -104,12 +106,16 @@ private:
     Eigen::Vector3d intoWall(const Frame& frame, const Eigen::Vector3d& x) const;
     void meet(int i, const Frame& frame, bool advance);
     void lookAround(Surroundings& here, double radius);
-    double ballDistance(int element, const Eigen::Vector3d& position, double radius) const; // of a body's ball to the plane of an element
+    double ballDistance(int element, const Eigen::Vector3d& position,
+                        double radius) const; // of a body's ball to the plane of an element
     void solve(int i, const Shape& shape, Surroundings& here);
     bool leavesToAnother(const Touched& one, double radius) const; // at a seam
-    void applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact, Surroundings& here);
-    void applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch, Known& contact, const pp_pose& pose);
-    std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch, Known& contact, const pp_pose& pose) const;
+    void applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact,
+                  Surroundings& here);
+    void applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch,
+                       Known& contact, const pp_pose& pose);
+    std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch,
+                                       Known& contact, const pp_pose& pose) const;
     void push(int i, const Eigen::Vector3d& onWall, const Eigen::Vector3d& torque, const JointEnergies& energies);
     double mark() const; // of planes and triangles
     std::array<double, 10> motion() const;
@@ -125,7 +131,8 @@ private:
     double checkedStep = -1; // time step that was found stable
     bool byPatch = false;
     double patchTolerance = 1e-4;
-    // Simulation times at which the wall was where the command says, and at which it was last moved. `reset_timestep` shifts both.
+    // Simulation times at which the wall was where the command says, and at which it was last moved. `reset_timestep`
+    // shifts both.
     double start = 0, lastTime = 0;
     LAMMPS_NS::bigint wholeBefore = 1;
     JointParameters joint;

@@ -16,7 +16,8 @@ struct JointHistory {
     bool isBond() const { return memory.bondArea > 0; }
     bool lasts() const { return touching || isBond(); }
 
-    // Calls `visit(double*, count)` for all that is one number or several, `visit(bool&)` for flags, and `visit(std::vector<double>&)` for the rim, which is last.
+    // Calls `visit(double*, count)` for all that is one number or several, `visit(bool&)` for flags, and
+    // `visit(std::vector<double>&)` for the rim, which is last.
     template <class History, class Visit> static void eachNumber(History& history, Visit&& visit)
     {
         auto& m = history.memory;

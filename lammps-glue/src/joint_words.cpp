@@ -19,7 +19,8 @@ LawParameters readLaw(LAMMPS* lmp, const char* command, char** arguments, int at
         numberIn(lmp, command, "restitution", arguments[at + 3], lowestRestitution, 1),
     };
     if (value[1] == 0 && value[2] > 0)
-        lmp->error->all(FLERR, "{}: shear stiffness = 0 with friction = {}: give friction 0 for frictionless contacts", command, value[2]);
+        lmp->error->all(FLERR, "{}: shear stiffness = 0 with friction = {}: give friction 0 for frictionless contacts",
+                        command, value[2]);
     return { value[0], value[1], value[2], dampingRatioOf(value[3]) };
 }
 
@@ -33,7 +34,10 @@ JointParameters jointOf(const LawParameters& law)
     return joint;
 }
 
-double readPatchTolerance(LAMMPS* lmp, const char* command, const char* text) { return numberIn(lmp, command, "patch", text, 1e-12, 0.1); }
+double readPatchTolerance(LAMMPS* lmp, const char* command, const char* text)
+{
+    return numberIn(lmp, command, "patch", text, 1e-12, 0.1);
+}
 
 int readStrength(LAMMPS* lmp, const char* command, char** arguments, int at, int count, JointParameters& joint)
 {
@@ -44,11 +48,14 @@ int readStrength(LAMMPS* lmp, const char* command, char** arguments, int at, int
     double value[2] = {};
     for (int n = 0; n < numbers; ++n) {
         if (at + 1 + n >= count)
-            lmp->error->all(FLERR, "{}: {}: {} expected after it", command, word, numbers == 2 ? "a coefficient of friction and a stress are" : "a number is");
+            lmp->error->all(FLERR, "{}: {}: {} expected after it", command, word,
+                            numbers == 2 ? "a coefficient of friction and a stress are" : "a number is");
         value[n] = numberIn(lmp, command, word, arguments[at + 1 + n], 1 / bearable, bearable, true);
     }
     if (joint.shearStiffness == 0 && word == "cohesion" && value[0] > 0)
-        lmp->error->all(FLERR, "{}: cohesion = {} with shear stiffness 0: nothing holds along the joint; give a shear stiffness", command, value[0]);
+        lmp->error->all(
+            FLERR, "{}: cohesion = {} with shear stiffness 0: nothing holds along the joint; give a shear stiffness",
+            command, value[0]);
     if (word == "cohesion")
         joint.cohesion = value[0];
     else if (word == "tension")

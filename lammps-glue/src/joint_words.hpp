@@ -13,7 +13,8 @@ namespace potential_particles {
 constexpr double lowestRestitution = 0.01;
 constexpr const char* strengthWords = "cohesion C, tension T, residual FRICTION COHESION, softening W";
 
-// From arguments[at] on: four numbers. Ends LAMMPS, in the name of `command`, where one is no number or not what it must be.
+// From arguments[at] on: four numbers. Ends LAMMPS, in the name of `command`, where one is no number or not what it
+// must be.
 LawParameters readLaw(LAMMPS_NS::LAMMPS* lmp, const char* command, char** arguments, int at);
 
 // The same numbers, with stiffnesses per area, and no strength.
@@ -23,6 +24,7 @@ JointParameters jointOf(const LawParameters& law);
 double readPatchTolerance(LAMMPS_NS::LAMMPS* lmp, const char* command, const char* text);
 
 // Takes a word of strength with its numbers, if there is one at `at`: how many arguments it was, or 0.
-int readStrength(LAMMPS_NS::LAMMPS* lmp, const char* command, char** arguments, int at, int count, JointParameters& joint);
+int readStrength(LAMMPS_NS::LAMMPS* lmp, const char* command, char** arguments, int at, int count,
+                 JointParameters& joint);
 
 } // namespace potential_particles

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Of what something that is remembered is: a number from all that it depends on, which goes along with it, to other ranks and into files. Where it is
-// another one now, what is remembered does not fit.
+// Of what something that is remembered is: a number from all that it depends on, which goes along with it, to other
+// ranks and into files. Where it is another one now, what is remembered does not fit.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +32,8 @@ private:
 // In their order; exact.
 inline double markOfBoth(double a, double b) { return 2 * a + b; }
 
-// The first number of what fixes write into restart files: files of plugins that knew no marks begin with a sum of energy.
+// The first number of what fixes write into restart files: files of plugins that knew no marks begin with a sum of
+// energy.
 constexpr double savedFormat = -2;
 
 } // namespace potential_particles

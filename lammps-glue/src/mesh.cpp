@@ -40,13 +40,16 @@ std::vector<Corner> textCorners(const std::string& bytes, const std::string& pat
             for (float& x : corner) {
                 const double number = words >> word ? numberOf(word) : NAN;
                 if (std::isnan(number))
-                    throw std::runtime_error(path + ": vertex " + std::to_string(read.size() + 1) + " is not three numbers");
+                    throw std::runtime_error(path + ": vertex " + std::to_string(read.size() + 1)
+                                             + " is not three numbers");
                 x = static_cast<float>(number);
             }
             read.push_back(corner);
         }
     if (!ends)
-        throw std::runtime_error(path + ": it is no whole STL file: a text ends with endsolid, a binary file has 84 bytes and 50 for each triangle");
+        throw std::runtime_error(path
+                                 + ": it is no whole STL file: a text ends with endsolid, a binary file has 84 bytes "
+                                   "and 50 for each triangle");
     return read;
 }
 
@@ -84,16 +87,20 @@ Mesh::Mesh(const std::string& bytes, const std::string& path, double scale)
     const std::vector<Corner> read
         = bytes.size() == 84 + 50 * static_cast<size_t>(count) ? binaryCorners(bytes, count) : textCorners(bytes, path);
     if (read.empty() || read.size() % 3)
-        throw std::runtime_error(path + ": " + std::to_string(read.size()) + " vertices: an STL file has three for each triangle, and one triangle at least");
+        throw std::runtime_error(path + ": " + std::to_string(read.size())
+                                 + " vertices: an STL file has three for each triangle, and one triangle at least");
     triangles.resize(read.size() / 3);
     const TriangleCheck check;
     for (size_t n = 0; n < read.size(); ++n) {
         for (float x : read[n])
             if (!(std::abs(scale * x) <= bearable))
-                throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1) + " has a vertex that is not finite, or beyond 1e100 when scaled: mend the file, or give a smaller scale");
+                throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1)
+                                         + " has a vertex that is not finite, or beyond 1e100 when scaled: mend the "
+                                           "file, or give a smaller scale");
         triangles[n / 3][n % 3] = scale * Eigen::Vector3d(read[n][0], read[n][1], read[n][2]);
         if (n % 3 == 2 && !check.takes(triangles[n / 3]))
-            throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1) + " has no area to rounding: remove it from the mesh");
+            throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1)
+                                     + " has no area to rounding: remove it from the mesh");
     }
     sortIntoCells();
 }
@@ -129,7 +136,8 @@ void Mesh::sortIntoCells()
         return std::pair(cellOf(a.cwiseMin(b).cwiseMin(c)), cellOf(a.cwiseMax(b).cwiseMax(c)));
     };
     // Few large triangles among many small ones would lie in too many cells.
-    for (double entries = INFINITY; entries > mostCells * triangles.size(); cellSize *= entries > mostCells * triangles.size() ? 2 : 1) {
+    for (double entries = INFINITY; entries > mostCells * triangles.size();
+         cellSize *= entries > mostCells * triangles.size() ? 2 : 1) {
         cells = (extent / cellSize).floor().cast<int>() + 1;
         entries = 0;
         for (const Triangle& t : triangles) {

@@ -26,8 +26,8 @@ namespace potential_particles {
 namespace {
 
 constexpr const char* coefficients = "pair_coeff of potential/particle";
-constexpr const char* options
-    = "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch TOL, whole STEP, bonds yes or no";
+constexpr const char* options =
+    "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch TOL, whole STEP, bonds yes or no";
 
 } // namespace
 
@@ -77,7 +77,10 @@ void PairPotentialParticle::settings(int count, char** arguments)
     if (hasStrengthWords && !byPatch)
         error->all(FLERR, "{}: whole and bonds are for contacts by patch: add 'patch 1e-4', or leave them out", style);
     if (known != byPatch && !first)
-        error->all(FLERR, "{}: contacts that there are cannot change between point and patch: give pair_style before the first run", style);
+        error->all(
+            FLERR,
+            "{}: contacts that there are cannot change between point and patch: give pair_style before the first run",
+            style);
 }
 
 void PairPotentialParticle::coeff(int count, char** arguments)
@@ -95,7 +98,8 @@ void PairPotentialParticle::coeff(int count, char** arguments)
         const int taken = byPatch ? readStrength(lmp, coefficients, arguments, i, count, joint) : 0;
         if (!taken)
             error->all(FLERR, "{}: '{}': {}", coefficients, arguments[i],
-                byPatch ? std::string("expected ") + strengthWords : "strength is for contacts by patch: pair_style potential/particle patch 1e-4");
+                       byPatch ? std::string("expected ") + strengthWords
+                               : "strength is for contacts by patch: pair_style potential/particle patch 1e-4");
         i += taken;
     }
     for (int i = lowI; i <= highI; ++i)
@@ -110,7 +114,10 @@ void PairPotentialParticle::coeff(int count, char** arguments)
 void PairPotentialParticle::init_style()
 {
     if (force->newton_pair)
-        error->all(FLERR, "{}: it needs 'newton off' (or 'newton off on'), before the box is made: each rank that has a body of a pair keeps its history", style);
+        error->all(FLERR,
+                   "{}: it needs 'newton off' (or 'newton off on'), before the box is made: each rank that has a body "
+                   "of a pair keeps its history",
+                   style);
     if (!comm->ghost_velocity)
         error->all(FLERR, "{}: it needs velocities of ghosts: give 'comm_modify vel yes'", style);
     if (!atom->tag_enable)
@@ -118,7 +125,8 @@ void PairPotentialParticle::init_style()
     shapes = FixShapes::of(lmp, style);
     const auto memories = modify->get_fix_by_style("^potential/particle/memory$");
     memory_ = static_cast<ContactMemory*>(
-        memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId)) : memories.front());
+        memories.empty() ? modify->add_fix(fmt::format("{} all potential/particle/memory", memoryId))
+                         : memories.front());
     memory_->attach(this);
     moving = FixNve::groups(lmp);
     checkedStep = -1;
@@ -128,11 +136,14 @@ void PairPotentialParticle::init_style()
 double PairPotentialParticle::init_one(int i, int j)
 {
     if (!setflag[i][j])
-        error->all(FLERR, "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'", style, i, j, i, j);
+        error->all(FLERR,
+                   "{}: types {} and {} have no coefficients: give 'pair_coeff {} {} KN KS FRICTION RESTITUTION'",
+                   style, i, j, i, j);
     return shapes->shape(i).radius + shapes->shape(j).radius;
 }
 
-// Two bodies on one spring are no slower than this, whatever the levers. Of a patch the area is not known before there is one.
+// Two bodies on one spring are no slower than this, whatever the levers. Of a patch the area is not known before there
+// is one.
 void PairPotentialParticle::checkTimeSteps()
 {
     if (checkedStep == update->dt)
@@ -141,10 +152,13 @@ void PairPotentialParticle::checkTimeSteps()
     for (int i = 1; !byPatch && i <= atom->ntypes; ++i)
         for (int j = i; j <= atom->ntypes; ++j) {
             const double massA = shapes->massOf(i), massB = shapes->massOf(j);
-            const double most = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
+            const double most = 2
+                * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
             if (update->dt > most)
-                error->all(FLERR, "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well below: take {} or less", style,
-                    update->dt, i, j, most, 0.1 * most);
+                error->all(FLERR,
+                           "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well "
+                           "below: take {} or less",
+                           style, update->dt, i, j, most, 0.1 * most);
         }
 }
 

@@ -45,7 +45,8 @@ void PairPotentialParticle::count(int a, int b, const Vector3d& onB, const Joint
     pvector[broke] += share * energies.breaking;
     if (evflag) {
         const Vector3d between = vector(poses[a].position) - vector(poses[b].position);
-        ev_tally_xyz(a, b, local, 0, energies.elastic, 0.0, -onB[0], -onB[1], -onB[2], between[0], between[1], between[2]);
+        ev_tally_xyz(a, b, local, 0, energies.elastic, 0.0, -onB[0], -onB[1], -onB[2], between[0], between[1],
+                     between[2]);
     }
 }
 
@@ -53,7 +54,8 @@ void PairPotentialParticle::actInPoint(int slot)
 {
     const pp_contact& found = answers[slot];
     const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
-    const Vector3d armA = vector(found.branch_a), armB = vector(found.branch_b), turnA = vector(atom->omega[a]), turnB = vector(atom->omega[b]);
+    const Vector3d armA = vector(found.branch_a), armB = vector(found.branch_b), turnA = vector(atom->omega[a]),
+                   turnB = vector(atom->omega[b]);
     ContactMotion motion;
     motion.overlap = found.overlap;
     motion.normal = vector(found.normal);
@@ -77,9 +79,14 @@ JointBody PairPotentialParticle::bodyOf(int i) const
 {
     const double* q = poses[i].orientation;
     const Shape& shape = shapes->shape(atom->type[i]);
-    JointBody body { vector(poses[i].position), Eigen::Quaterniond(q[0], q[1], q[2], q[3]), vector(atom->v[i]), vector(atom->omega[i]), {} };
+    JointBody body { vector(poses[i].position),
+                     Eigen::Quaterniond(q[0], q[1], q[2], q[3]),
+                     vector(atom->v[i]),
+                     vector(atom->omega[i]),
+                     {} };
     if (isMoved(i))
-        body.mass = { Vector3d::Constant(atom->rmass[i]), atom->rmass[i] / shape.volume * shape.moments, body.centre, body.turn };
+        body.mass = { Vector3d::Constant(atom->rmass[i]), atom->rmass[i] / shape.volume * shape.moments, body.centre,
+                      body.turn };
     return body;
 }
 
@@ -112,7 +119,8 @@ std::optional<PatchInStep> PairPotentialParticle::patchOf(int slot)
     if (!state)
         state = std::make_unique<pp_patch_state>();
     pp_patch patch;
-    const pp_status status = pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found, patchTolerance, 1, state.get(), &patch, nullptr, 0, nullptr);
+    const pp_status status = pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found,
+                                                 patchTolerance, 1, state.get(), &patch, nullptr, 0, nullptr);
     if (auto here = PatchInStep::of(status, patch))
         return here;
     pvector[fallbacks] += static_cast<int>(a) < local && static_cast<int>(b) < local ? 1.0 : 0.5;
@@ -135,9 +143,11 @@ void PairPotentialParticle::actOnPatch(int slot)
         history = newJoint(joint);
     JointForces forces;
     try {
-        forces = jointForces(joint, history, bodyOf(a), bodyOf(b), here, update->dt, advance, [&](int body) { return posedShape(body == 1 ? a : b); });
+        forces = jointForces(joint, history, bodyOf(a), bodyOf(b), here, update->dt, advance,
+                             [&](int body) { return posedShape(body == 1 ? a : b); });
     } catch (const std::exception& refused) {
-        error->one(FLERR, "{}: the patch of atoms {} and {} cannot become a bond: {}", style, atom->tag[a], atom->tag[b], refused.what());
+        error->one(FLERR, "{}: the patch of atoms {} and {} cannot become a bond: {}", style, atom->tag[a],
+                   atom->tag[b], refused.what());
     }
     checkTimeStep(a, b, forces);
     push(a, forces.onOne.force, forces.onOne.torque);
@@ -154,8 +164,11 @@ void PairPotentialParticle::checkTimeStep(int a, int b, const JointForces& force
 {
     const double square = 4 / (forces.normalStiffness * (inverseMass(a) + inverseMass(b)));
     if (update->dt * update->dt > square)
-        error->one(FLERR, "{}: timestep = {}: the joint of atoms {} and {}, of stiffness {}, is unstable above {}, and with levers well below: take {} or less",
-            style, update->dt, atom->tag[a], atom->tag[b], forces.normalStiffness, std::sqrt(square), 0.1 * std::sqrt(square));
+        error->one(FLERR,
+                   "{}: timestep = {}: the joint of atoms {} and {}, of stiffness {}, is unstable above {}, and with "
+                   "levers well below: take {} or less",
+                   style, update->dt, atom->tag[a], atom->tag[b], forces.normalStiffness, std::sqrt(square),
+                   0.1 * std::sqrt(square));
 }
 
 } // namespace potential_particles

@@ -109,10 +109,14 @@ bool PairPotentialParticle::fits(const ContactMemory::Partner& partner, int a, i
     if (partner.mark == markOfBoth(marks[a], marks[b]))
         return true;
     if (isBond(partner))
-        error->one(FLERR, "{}: atoms {} and {} are bonded, and one has another shape than its bond: leave the shapes as they are, or begin without bonds: 'pair_style none' and the style again",
-            style, tags[a], tags[b]);
+        error->one(FLERR,
+                   "{}: atoms {} and {} are bonded, and one has another shape than its bond: leave the shapes as they "
+                   "are, or begin without bonds: 'pair_style none' and the style again",
+                   style, tags[a], tags[b]);
     if (!toldOfShapes)
-        error->warning(FLERR, "{}: the contact of atoms {} and {}, and maybe others, begins anew, since a shape has changed", style, tags[a], tags[b]);
+        error->warning(FLERR,
+                       "{}: the contact of atoms {} and {}, and maybe others, begins anew, since a shape has changed",
+                       style, tags[a], tags[b]);
     toldOfShapes = true;
     return false;
 }
@@ -180,7 +184,8 @@ void PairPotentialParticle::rebuild()
         of.swap(ordered);
     };
     bodies.swap(newBodies);
-    // What the library remembers makes answers differ by their tolerance. It does not migrate, nor is it in files: it is dropped for all.
+    // What the library remembers makes answers differ by their tolerance. It does not migrate, nor is it in files: it
+    // is dropped for all.
     states.assign(from.size(), pp_pair_state {});
     inNewOrder(answers, [] { return pp_contact {}; });
     if (byPatch) {
@@ -204,8 +209,11 @@ void PairPotentialParticle::checkBonds(int before)
         if (isBond(slot))
             now += (static_cast<int>(bodies[slot].a) < local) + (static_cast<int>(bodies[slot].b) < local);
     if (now < before && atom->natoms == atomsAtBuild)
-        error->one(FLERR, "{}: {} bonded atoms have lost their partner: their bonds reach beyond the list of neighbours, or neigh_modify "
-            "exclude leaves pairs out; give a skin of more than {}, or a larger stiffness", style, before - now, neighbor->skin);
+        error->one(FLERR,
+                   "{}: {} bonded atoms have lost their partner: their bonds reach beyond the list of neighbours, or "
+                   "neigh_modify "
+                   "exclude leaves pairs out; give a skin of more than {}, or a larger stiffness",
+                   style, before - now, neighbor->skin);
     atomsAtBuild = atom->natoms;
 }
 
@@ -238,8 +246,9 @@ void PairPotentialParticle::gatherPoses()
         std::copy_n(atom->x[i], 3, poses[i].position);
         ways[i] = travelled(ways[i], wayBetween(first ? pp_pose {} : last[i], poses[i], radii[i]));
         if (!std::isfinite(ways[i]))
-            error->one(FLERR, "{}: atom {} has the pose {}: it must be finite; a smaller timestep or softer contacts may help", style, atom->tag[i],
-                described(poses[i]));
+            error->one(FLERR,
+                       "{}: atom {} has the pose {}: it must be finite; a smaller timestep or softer contacts may help",
+                       style, atom->tag[i], described(poses[i]));
         if (first)
             ways[i] = 0;
     }
@@ -250,9 +259,11 @@ void PairPotentialParticle::checkSkin()
     for (size_t i = 0; i < held.size(); ++i) {
         const double way = (vector(atom->x[i]) - vector(held[i].data())).norm();
         if (way > 0.5 * neighbor->skin)
-            error->one(FLERR, "{}: atom {} has moved by {} in {} steps without a new list of neighbours, more than half the skin of {}: "
-                "give 'neigh_modify delay 0 every 1 check yes', or a skin of {} or more", style, atom->tag[i], way, neighbor->ago, neighbor->skin,
-                3 * way);
+            error->one(FLERR,
+                       "{}: atom {} has moved by {} in {} steps without a new list of neighbours, more than half the "
+                       "skin of {}: "
+                       "give 'neigh_modify delay 0 every 1 check yes', or a skin of {} or more",
+                       style, atom->tag[i], way, neighbor->ago, neighbor->skin, 3 * way);
     }
 }
 
@@ -262,8 +273,10 @@ void PairPotentialParticle::checkTurns()
     for (int i = 0; !toldOfTurns && i < local; ++i)
         if (!(atom->mask[i] & moving) && vector(atom->omega[i]) != Vector3d::Zero()) {
             const auto* w = atom->omega[i];
-            error->warning(FLERR, "{}: atom {} has the angular velocity {} {} {}, and no fix nve/potential/particle moves it: its orientation stays as it is", style,
-                atom->tag[i], w[0], w[1], w[2]);
+            error->warning(FLERR,
+                           "{}: atom {} has the angular velocity {} {} {}, and no fix nve/potential/particle moves it: "
+                           "its orientation stays as it is",
+                           style, atom->tag[i], w[0], w[1], w[2]);
             toldOfTurns = true;
         }
 }
@@ -305,11 +318,15 @@ void PairPotentialParticle::removeSlot(int slot)
 // A contact that failed keeps the geometry of the last step, if it has one.
 void PairPotentialParticle::fail(int a, int b, pp_status status)
 {
-    const std::string what = fmt::format("{}: the contact of atoms {} and {} failed: {}. Shapes {} and {}; A: {}; B: {}", style, atom->tag[a], atom->tag[b],
-        pp_status_message(status), shapes->shape(atom->type[a]).name, shapes->shape(atom->type[b]).name, described(poses[a]), described(poses[b]));
+    const std::string what = fmt::format(
+        "{}: the contact of atoms {} and {} failed: {}. Shapes {} and {}; A: {}; B: {}", style, atom->tag[a],
+        atom->tag[b], pp_status_message(status), shapes->shape(atom->type[a]).name, shapes->shape(atom->type[b]).name,
+        described(poses[a]), described(poses[b]));
     const bool badPose = status == PP_BAD_POSITION || status == PP_BAD_ORIENTATION;
     if (stopAtFailure || badPose)
-        error->one(FLERR, badPose ? what : what + ". To go on and count failures: pair_style potential/particle failures count");
+        error->one(FLERR,
+                   badPose ? what
+                           : what + ". To go on and count failures: pair_style potential/particle failures count");
     error->warning(FLERR, what);
     failures += a < local && b < local ? 1.0 : 0.5;
 }
@@ -319,14 +336,16 @@ void PairPotentialParticle::solveNear()
     const size_t count = bodies.size();
     statuses.resize(count);
     static_assert(sizeof(Bodies) == 2 * sizeof(uint32_t));
-    const pp_status status = pp_contact_detect_batch(particles.data(), poses.data(), particles.size(), count ? &bodies[0].a : nullptr, count, &how, threads,
-        states.data(), answers.data(), statuses.data());
+    const pp_status status = pp_contact_detect_batch(particles.data(), poses.data(), particles.size(),
+                                                     count ? &bodies[0].a : nullptr, count, &how, threads,
+                                                     states.data(), answers.data(), statuses.data());
     if (status != PP_OK)
         error->one(FLERR, "{}: {}", style, pp_status_message(status));
     for (int slot = 0; slot < slotCount();) {
         const int a = static_cast<int>(bodies[slot].a), b = static_cast<int>(bodies[slot].b);
         statuses[slot] = fromNothingIfNew(statuses[slot], answers[slot], lasts(slot), &states[slot], [&] {
-            return pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot], &answers[slot]);
+            return pp_contact_detect(particles[a], &poses[a], particles[b], &poses[b], &how, &states[slot],
+                                     &answers[slot]);
         });
         if (statuses[slot] != PP_OK)
             fail(a, b, statuses[slot]);
@@ -356,7 +375,8 @@ void PairPotentialParticle::lookAtFar()
         }
         pp_pair_state state = {};
         pp_contact found = {};
-        const pp_status status = pp_contact_detect(particles[pair.a], &poses[pair.a], particles[pair.b], &poses[pair.b], &how, &state, &found);
+        const pp_status status = pp_contact_detect(particles[pair.a], &poses[pair.a], particles[pair.b], &poses[pair.b],
+                                                   &how, &state, &found);
         if (status != PP_OK)
             fail(pair.a, pair.b, status);
         else if (sleeps(found, pair.a, pair.b)) {
@@ -389,9 +409,11 @@ void PairPotentialParticle::compute(int eflag, int vflag)
 double PairPotentialParticle::memory_usage()
 {
     const auto bytes = [](const auto& of) { return static_cast<double>(of.capacity() * sizeof(of[0])); };
-    return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses) + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states)
-        + bytes(answers) + bytes(histories) + bytes(statuses) + bytes(joints)
-        + bytes(patches) + static_cast<double>(std::count_if(patches.begin(), patches.end(), [](const auto& one) { return !!one; }) * sizeof(pp_patch_state));
+    return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses)
+        + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states) + bytes(answers) + bytes(histories)
+        + bytes(statuses) + bytes(joints) + bytes(patches)
+        + static_cast<double>(std::count_if(patches.begin(), patches.end(), [](const auto& one) { return !!one; })
+                              * sizeof(pp_patch_state));
 }
 
 } // namespace potential_particles

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// pair_style potential/particle [carry TOL] [flat EPS] [closest] [threads N] [failures stop|count] [patch TOL] [whole STEP] [bonds yes|no]
-// pair_coeff I J KN KS FRICTION RESTITUTION [cohesion C] [tension T] [residual FRICTION COHESION] [softening W]
+// pair_style potential/particle [carry TOL] [flat EPS] [closest] [threads N] [failures stop|count] [patch TOL] [whole
+// STEP] [bonds yes|no] pair_coeff I J KN KS FRICTION RESTITUTION [cohesion C] [tension T] [residual FRICTION COHESION]
+// [softening W]
 //
-// Contacts act in a point (point_law), or, with `patch`, on the patch by the law of joints (plugin-common), stiffnesses being per area.
-// A step: poses of all atoms are gathered. Pairs of the list of neighbours are *far* or *near*. A far pair sleeps until both bodies together have
-// come as far as they were apart when they were last looked at; it has no memory. Near pairs have a slot each, with the library's state
-// and the history of the contact, and are solved in one call of the library.
+// Contacts act in a point (point_law), or, with `patch`, on the patch by the law of joints (plugin-common), stiffnesses
+// being per area. A step: poses of all atoms are gathered. Pairs of the list of neighbours are *far* or *near*. A far
+// pair sleeps until both bodies together have come as far as they were apart when they were last looked at; it has no
+// memory. Near pairs have a slot each, with the library's state and the history of the contact, and are solved in one
+// call of the library.
 #pragma once
 
 #include "plugin-common/point_law.hpp"
@@ -47,7 +49,10 @@ public:
     bool actsOnPatches() const { return byPatch; }
     int slotCount() const { return static_cast<int>(bodies.size()); }
     int localAtBuild() const { return local; }
-    LAMMPS_NS::tagint tagAtBuild(int atom) const { return tags[atom]; } // a fix may have put new atoms in the place of ghosts since
+    LAMMPS_NS::tagint tagAtBuild(int atom) const
+    {
+        return tags[atom];
+    } // a fix may have put new atoms in the place of ghosts since
     double markAtBuild(int slot) const { return markOfBoth(marks[bodies[slot].a], marks[bodies[slot].b]); }
     std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
     bool lasts(int slot) const { return byPatch ? joints[slot].lasts() : histories[slot].touching; }
@@ -55,8 +60,12 @@ public:
     bool isBond(int slot) const { return byPatch && joints[slot].isBond(); }
     int valueCount(int slot) const;
     void writeValues(int slot, double* to) const;
-    // Sums since the first step, of this rank: failures, energy that friction and dashpots took, that patches and bonds did.
-    std::array<double*, 5> sumsOfRun() { return { &failures, &pvector[slid], &pvector[damped], &pvector[changed], &pvector[broke] }; }
+    // Sums since the first step, of this rank: failures, energy that friction and dashpots took, that patches and bonds
+    // did.
+    std::array<double*, 5> sumsOfRun()
+    {
+        return { &failures, &pvector[slid], &pvector[damped], &pvector[changed], &pvector[broke] };
+    }
 
 private:
     static constexpr const char* style = "pair_style potential/particle"; // in messages
@@ -129,7 +138,8 @@ private:
     std::vector<pp_contact> answers;
     std::vector<ContactHistory> histories; // empty, if contacts act on patches
     std::vector<JointHistory> joints; // empty, if they do not
-    std::vector<std::unique_ptr<pp_patch_state>> patches; // the same; since the last list of neighbours, so that all ranks and restarts have the same
+    std::vector<std::unique_ptr<pp_patch_state>>
+        patches; // the same; since the last list of neighbours, so that all ranks and restarts have the same
     LAMMPS_NS::bigint atomsAtBuild = 0;
     std::vector<pp_status> statuses;
     double failures = 0;

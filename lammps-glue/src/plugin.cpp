@@ -32,7 +32,8 @@ template <class Style> void* makeFix(void* lammps, int count, char** arguments)
     } catch (const LAMMPS_NS::LAMMPSException&) {
         throw;
     } catch (const std::exception&) { // of one rank alone, maybe
-        lmp->error->one(FLERR, "fix {} {}: there is no memory for what it shall read: give smaller files", arguments[0], arguments[2]);
+        lmp->error->one(FLERR, "fix {} {}: there is no memory for what it shall read: give smaller files", arguments[0],
+                        arguments[2]);
     }
 }
 
@@ -42,11 +43,15 @@ extern "C" void lammpsplugin_init(void* lammps, void* handle, void* registerPlug
 {
     auto* lmp = static_cast<LAMMPS_NS::LAMMPS*>(lammps);
     if (pp_abi_version() != PP_ABI_VERSION)
-        lmp->error->all(FLERR, "potential particles: the library has interface {}, the plugin was built for {}: build the plugin anew",
+        lmp->error->all(
+            FLERR,
+            "potential particles: the library has interface {}, the plugin was built for {}: build the plugin anew",
             pp_abi_version(), PP_ABI_VERSION);
     const auto enter = reinterpret_cast<RegisterPlugin*>(registerPlugin);
 
-    PluginEntry pair { lmp->version, "pair", "potential/particle", "contacts of potential particles", "potential-particles", {}, handle };
+    PluginEntry pair {
+        lmp->version, "pair", "potential/particle", "contacts of potential particles", "potential-particles", {}, handle
+    };
     pair.creator.without = &makePair<PairPotentialParticle>;
     enter(&pair, lammps);
 

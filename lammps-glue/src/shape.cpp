@@ -30,7 +30,8 @@ std::string number(double value)
     return out.str();
 }
 
-Shape finished(const std::string& name, const std::vector<double>& planes, double r, double k, double shadowRadius, const Place& place)
+Shape finished(const std::string& name, const std::vector<double>& planes, double r, double k, double shadowRadius,
+               const Place& place)
 {
     Shape shape;
     shape.name = name;
@@ -40,12 +41,14 @@ Shape finished(const std::string& name, const std::vector<double>& planes, doubl
         place.refuse("shape " + name + ": " + why);
     shape.particle.reset(made, pp_particle_free);
     pp_mass_properties mass;
-    if (pp_particle_bounding_radius(made, &shape.radius) != PP_OK || pp_particle_mass_properties(made, massTolerance, &mass) != PP_OK)
+    if (pp_particle_bounding_radius(made, &shape.radius) != PP_OK
+        || pp_particle_mass_properties(made, massTolerance, &mass) != PP_OK)
         place.refuse("shape " + name + ": its mass properties cannot be computed: scale it to a size near 1");
     const Eigen::Vector3d centre(mass.centroid);
     if (centre.norm() > centred * shape.radius)
-        place.refuse("shape " + name + ": its centre of mass is at " + number(centre[0]) + " " + number(centre[1]) + " " + number(centre[2])
-            + ": move its planes so that it is at the origin (potential_particles.to_lammps does)");
+        place.refuse("shape " + name + ": its centre of mass is at " + number(centre[0]) + " " + number(centre[1]) + " "
+                     + number(centre[2])
+                     + ": move its planes so that it is at the origin (potential_particles.to_lammps does)");
     const double* inertia = mass.inertia;
     const double most = std::max({ std::abs(inertia[3]), std::abs(inertia[4]), std::abs(inertia[5]) });
     if (most > centred * std::max({ inertia[0], inertia[1], inertia[2] }))

@@ -19,9 +19,9 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* expected
-    = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, flat EPS, linear VX VY VZ, rotate X Y Z AX AY AZ PERIOD, or "
-      "patch TOL and with it cohesion C, residual FRICTION COHESION, whole STEP";
+constexpr const char* expected = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, "
+                                 "flat EPS, linear VX VY VZ, rotate X Y Z AX AY AZ PERIOD, or "
+                                 "patch TOL and with it cohesion C, residual FRICTION COHESION, whole STEP";
 
 } // namespace
 
@@ -43,7 +43,8 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
     std::set<std::string> given;
     for (int i = 7; i < count;) {
         const auto threeAt = [&](int at, const char* what) {
-            return Vector3d(numberIn(lmp, style, what, arguments[at]), numberIn(lmp, style, what, arguments[at + 1]), numberIn(lmp, style, what, arguments[at + 2]));
+            return Vector3d(numberIn(lmp, style, what, arguments[at]), numberIn(lmp, style, what, arguments[at + 1]),
+                            numberIn(lmp, style, what, arguments[at + 2]));
         };
         const auto directionAt = [&](int at, const char* what) {
             const Vector3d direction = threeAt(at, what);
@@ -86,7 +87,10 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
             hasStrength = true;
             i += 2;
         } else if (!strcmp(arguments[i], "tension") || !strcmp(arguments[i], "softening"))
-            error->all(FLERR, "{}: '{}': walls make no bonds; give cohesion alone, or make the wall of bodies that do not move", style, arguments[i]);
+            error->all(
+                FLERR,
+                "{}: '{}': walls make no bonds; give cohesion alone, or make the wall of bodies that do not move",
+                style, arguments[i]);
         else if (const int taken = readStrength(lmp, style, arguments, i, count, joint)) {
             hasStrength = true;
             i += taken;

@@ -25,7 +25,8 @@ constexpr const char* otherwise = "another ID, for a wall whose contacts begin a
 
 int FixWall::touching(int i) const
 {
-    return static_cast<int>(std::count_if(around[i].known.begin(), around[i].known.end(), [](const Known& one) { return one.touches; }));
+    return static_cast<int>(
+        std::count_if(around[i].known.begin(), around[i].known.end(), [](const Known& one) { return one.touches; }));
 }
 
 double FixWall::compute_vector(int n)
@@ -150,17 +151,27 @@ void FixWall::restart(char* saved)
         error->all(FLERR, "fix {} {}: the restart file is of another version of the plugin: {}", id, style, otherwise);
     std::memcpy(&all, saved, sizeof all);
     if (all.mark != mark())
-        error->all(FLERR, "fix {} {}: the restart file has a fix of this ID with other planes or triangles, or in another order: give those, or {}", id, style, otherwise);
+        error->all(FLERR,
+                   "fix {} {}: the restart file has a fix of this ID with other planes or triangles, or in another "
+                   "order: give those, or {}",
+                   id, style, otherwise);
     if (all.contacts > 0 && all.byPatch != byPatch)
-        error->all(FLERR, "fix {} {}: the contacts of the restart file act {}: give the fix {} 'patch TOL' as when it was written", id, style, byPatch ? "in a point" : "on patches",
-            byPatch ? "without" : "with");
-    const auto isAtRest = [](const double* motion) { return motion[9] == 0 && std::all_of(motion, motion + 3, [](double x) { return x == 0; }); };
+        error->all(
+            FLERR,
+            "fix {} {}: the contacts of the restart file act {}: give the fix {} 'patch TOL' as when it was written",
+            id, style, byPatch ? "in a point" : "on patches", byPatch ? "without" : "with");
+    const auto isAtRest = [](const double* motion) {
+        return motion[9] == 0 && std::all_of(motion, motion + 3, [](double x) { return x == 0; });
+    };
     const auto now = motion();
     if (std::equal(now.begin(), now.end(), all.motion)) {
         start = all.start;
         lastTime = all.lastTime;
     } else if (!isAtRest(all.motion))
-        error->all(FLERR, "fix {} {}: the restart file has a fix of this ID with another linear or rotate, by which it has moved: give those, or {}", id, style, otherwise);
+        error->all(FLERR,
+                   "fix {} {}: the restart file has a fix of this ID with another linear or rotate, by which it has "
+                   "moved: give those, or {}",
+                   id, style, otherwise);
     for (size_t n = 0; comm->me == 0 && n < std::size(ofRun); ++n)
         own[ofRun[n]] = all.sums[n];
 }

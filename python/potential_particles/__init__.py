@@ -5,9 +5,10 @@ With <t> = max(t, 0) a particle is {x: S(x) <= 1} in its local frame,
 
     S(x) = (1-k)/r^2 sum <n_i.x - d_i>^2 + k/R^2 |x|^2,    s(x) = sqrt(S(x)).
 
-A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a Batch those of all pairs
-of a step on numpy arrays. `builders` makes particles of points, surfaces and names of solids, `slicing` cuts rock into blocks, `planar` has
-particles of the plane. Lengths are in the caller's unit, quaternions (w, x, y, z), vectors in world axes unless said otherwise.
+A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a
+Batch those of all pairs of a step on numpy arrays. `builders` makes particles of points, surfaces and names of solids,
+`slicing` cuts rock into blocks, `planar` has particles of the plane. Lengths are in the caller's unit, quaternions (w,
+x, y, z), vectors in world axes unless said otherwise.
 """
 import os
 import pkgutil

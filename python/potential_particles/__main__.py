@@ -7,7 +7,8 @@ from .demo import demo
 
 
 def main():
-    parser = argparse.ArgumentParser(prog="python -m potential_particles", description="Contact detection between potential particles.")
+    parser = argparse.ArgumentParser(prog="python -m potential_particles",
+                                     description="Contact detection between potential particles.")
     commands = parser.add_subparsers(dest="command", required=True)
     drawn = commands.add_parser("demo", help="draw two particles and their contact")
     drawn.add_argument("file", nargs="?", default="contact.png", help="a picture (default: contact.png)")

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Builders of shapes: half-spaces, points, surfaces, files and solids, rounded, about their centroid along principal axes.
+"""Builders of shapes: half-spaces, points, surfaces, files and solids, rounded, about their centroid along principal
+axes.
 
-rounding is the rounding radius as a share of the *size* of the sharp shape, the diameter of the largest ball that fits in it; r, in its place, and R are
-lengths; k is the sphericity itself. Faces stay where they are: the planes of the particle lie deeper. A Shape says with centroid and orientation where its frame lies in that of the builder:
-x_builder = centroid + orientation x.
+rounding is the rounding radius as a share of the *size* of the sharp shape, the diameter of the largest ball that fits
+in it; r, in its place, and R are lengths; k is the sphericity itself. Faces stay where they are: the planes of the
+particle lie deeper. A Shape says with centroid and orientation where its frame lies in that of the builder: x_builder =
+centroid + orientation x.
 """
 from ._core import _builders
 

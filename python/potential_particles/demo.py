@@ -37,7 +37,9 @@ def demo(file):
 
 
 def draw(file, pair, contact, patch):
-    """A picture of two bodies, seen through, with their contact point, normal and patch; beside it the patch from the front."""
+    """A picture of two bodies, seen through, with their contact point, normal and patch; beside it the patch from the
+    front.
+    """
     import matplotlib.pyplot as plt
     figure = plt.figure(figsize=(11, 5.5), dpi=120)
     scene = figure.add_subplot(1, 2, 1, projection="3d")
@@ -52,7 +54,8 @@ def draw(file, pair, contact, patch):
     across = np.cross(contact.normal, np.eye(3)[np.argmin(np.abs(contact.normal))])
     across /= np.linalg.norm(across)
     along = np.cross(contact.normal, across)
-    shown = front.scatter(patch.points[:, :3] @ across, patch.points[:, :3] @ along, c=patch.points[:, 4], cmap="inferno", s=12)
+    shown = front.scatter(patch.points[:, :3] @ across, patch.points[:, :3] @ along, c=patch.points[:, 4],
+                          cmap="inferno", s=12)
     front.plot(0, 0, "k+", markersize=12)
     front.set_aspect("equal")
     front.set_title(f"patch: area {patch.area:.4f}; + is the contact point")
@@ -70,7 +73,9 @@ def _surface(scene, particle, pose, colour):
     light = normals @ np.array([0.3, -0.7, 0.65]) / np.maximum(np.linalg.norm(normals, axis=1), 1e-300)
     from matplotlib.colors import to_rgb
     shades = np.clip(0.55 + 0.45 * light, 0.2, 1.0)[:, None] * np.array(to_rgb(colour))
-    scene.add_collection3d(Poly3DCollection(corners[mesh.triangles], facecolors=np.column_stack([shades, np.full(len(shades), 0.45)])))
+    scene.add_collection3d(
+        Poly3DCollection(corners[mesh.triangles], facecolors=np.column_stack([shades,
+                                                                              np.full(len(shades), 0.45)])))
     return corners
 
 

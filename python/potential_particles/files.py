@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The one way in which files are written: whole, or not at all. The same file is part of the packages for numpy, YADE and LAMMPS."""
+"""The one way in which files are written: whole, or not at all. The same file is part of the packages for numpy, YADE
+and LAMMPS.
+"""
 import contextlib
 import json
 import math
@@ -9,10 +11,11 @@ import stat
 
 @contextlib.contextmanager
 def written(file, text=False):
-    """An open file, of bytes or of text in UTF-8, that takes the name `file` when the block has ended without an error and all of it is on the disk.
+    """An open file, of bytes or of text in UTF-8, that takes the name `file` when the block has ended without an error
+    and all of it is on the disk.
 
-    Until then it lies beside it under that name and ".part". OSError where anything could not be written, and what was there stays. A link to a file stays a
-    link; a device or pipe is written as it is.
+    Until then it lies beside it under that name and ".part". OSError where anything could not be written, and what was
+    there stays. A link to a file stays a link; a device or pipe is written as it is.
     """
     mode, encoding = ("w", "utf-8") if text else ("wb", None)
     place = os.path.realpath(os.fspath(file))
@@ -34,7 +37,8 @@ def written(file, text=False):
             with contextlib.suppress(OSError):
                 os.remove(part)
     except OSError as error:
-        raise OSError(error.errno, f"{error.strerror or error}; what was there before is left as it was", os.fspath(file)) from error
+        raise OSError(error.errno, f"{error.strerror or error}; what was there before is left as it was",
+                      os.fspath(file)) from error
     _flush_folder(os.path.dirname(place))
 
 

@@ -76,7 +76,8 @@ pub fn read<'py, T: Element, D: Dimension>(
         .map_err(|_| refused(format!("{name} is written as out of another call: give each thread arrays of its own")))
 }
 
-/// The elements of an array as rows or records that lie in its memory. Of none, the place in memory does not matter: it may be any.
+/// The elements of an array as rows or records that lie in its memory. Of none, the place in memory does not matter: it
+/// may be any.
 pub fn in_place<'a, A: NoUninit, B: AnyBitPattern>(elements: &'a [A], name: &str) -> PyResult<&'a [B]> {
     if elements.is_empty() {
         return Ok(&[]);

@@ -16,9 +16,9 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The contacts of a scene, step after step: the particles of its bodies, and what each pair keeps from call to call.
 ///
-/// The list of pairs may change: a pair keeps what it had as long as it is in the list. settings, threads: as of detect_batch.
-/// remember=False keeps nothing. Threads of Python that share a Batch wait for each other, as each call starts from the solutions of the last one:
-/// one Batch for each thread, or remember=False, lets them run side by side.
+/// The list of pairs may change: a pair keeps what it had as long as it is in the list. settings, threads: as of
+/// detect_batch. remember=False keeps nothing. Threads of Python that share a Batch wait for each other, as each call
+/// starts from the solutions of the last one: one Batch for each thread, or remember=False, lets them run side by side.
 #[pyclass(name = "Batch", module = "potential_particles", frozen)]
 pub struct PyBatch {
     particles: Vec<Py<PyParticle>>,
@@ -48,7 +48,8 @@ impl PyBatch {
         Self { particles, settings: or_default(settings), threads, memory: remember.then(Mutex::default) }
     }
 
-    /// Contacts of pairs (m, 2) of bodies at their poses, as detect_batch gives them, each from the last solution of its pair.
+    /// Contacts of pairs (m, 2) of bodies at their poses, as detect_batch gives them, each from the last solution of
+    /// its pair.
     ///
     /// Arrays, out and errors as of detect_batch.
     #[pyo3(signature = (poses, pairs, out=None))]
@@ -193,13 +194,13 @@ fn pair_rows<'py>(pairs: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray2<'py, u
     read(&to_rows(pairs.py(), rows.into_iter()), "pairs")
 }
 
-/// Contacts of pairs (m, 2) of bodies, as an array (m,) of contact_type; body i is particles[i] at poses[i]. Without memories: a Batch has those.
+/// Contacts of pairs (m, 2) of bodies, as an array (m,) of contact_type; body i is particles[i] at poses[i]. Without
+/// memories: a Batch has those.
 ///
-/// poses: an array of pose_type, or of doubles with rows x, y, z, w, x, y, z, read in place. pairs: first A, then B, counted from 0; those of uint32
-/// are
-/// read in place. threads: how many work on it, with the GIL released; no answer depends on it. out: where the contacts are written.
-/// ContactError (IndexError where bodies do not exist): pairs without an answer, whose kind is FAILED; `failures` lists them with their reasons,
-/// and `contacts` has all answers.
+/// poses: an array of pose_type, or of doubles with rows x, y, z, w, x, y, z, read in place. pairs: first A, then B,
+/// counted from 0; those of uint32 are read in place. threads: how many work on it, with the GIL released; no answer
+/// depends on it. out: where the contacts are written. ContactError (IndexError where bodies do not exist): pairs
+/// without an answer, whose kind is FAILED; `failures` lists them with their reasons, and `contacts` has all answers.
 #[pyfunction]
 #[pyo3(signature = (particles, poses, pairs, settings=None, *, threads=1, out=None))]
 fn detect_batch<'py>(

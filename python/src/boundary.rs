@@ -59,11 +59,13 @@ impl PyTriangle {
     }
 }
 
-/// The answer for a particle A and a plane or triangle T, world frame, lengths in the caller's unit. What does not apply is NaN.
+/// The answer for a particle A and a plane or triangle T, world frame, lengths in the caller's unit. What does not
+/// apply is NaN.
 ///
-/// s: the least s_A = sqrt(S_A) on T, at on_boundary; overlapping if it is below 1. gap, flags, iterations, kind: as of Contact. feature: where on T that is:
-/// ("interior", 0), ("edge", i) or ("vertex", i). overlap: from on_boundary along the normal to the surface of A, at on_particle, length. distance: of
-/// separated ones a lower bound, length. normal: unit, from A to T. point: halfway between both points; separated: on_boundary. point_bound: estimated distance of
+/// s: the least s_A = sqrt(S_A) on T, at on_boundary; overlapping if it is below 1. gap, flags, iterations, kind: as of
+/// Contact. feature: where on T that is: ("interior", 0), ("edge", i) or ("vertex", i). overlap: from on_boundary along
+/// the normal to the surface of A, at on_particle, length. distance: of separated ones a lower bound, length. normal:
+/// unit, from A to T. point: halfway between both points; separated: on_boundary. point_bound: estimated distance of
 /// on_boundary to the exact one, length. branch: point minus the position of A.
 #[pyclass(name = "FlatContact", module = "potential_particles", frozen)]
 pub struct PyFlatContact(pub FlatContact);
@@ -94,7 +96,8 @@ pickled!(PyFlatContact: FlatContact);
 
 /// The contact of particle A with a plane, which it may touch from either side, as a FlatContact: the least S_A on it.
 ///
-/// state: a PairState of A and this boundary, read, and updated on success. ContactError: no answer, which does not mean separated.
+/// state: a PairState of A and this boundary, read, and updated on success. ContactError: no answer, which does not
+/// mean separated.
 #[pyfunction(name = "contact_with_plane")]
 #[pyo3(signature = (a, pose, wall, settings=None, state=None))]
 fn with_plane(
@@ -108,9 +111,11 @@ fn with_plane(
     contact_with_plane(&a.0, &pose.0, &wall.wall, &or_default(settings), state).map(PyFlatContact).map_err(of_contact)
 }
 
-/// The contact of particle A with a closed triangle, which it may touch from either side, as a FlatContact: the least S_A on it.
+/// The contact of particle A with a closed triangle, which it may touch from either side, as a FlatContact: the least
+/// S_A on it.
 ///
-/// Of the triangles of a mesh, the one with the least s owns the contact at a seam. state and errors as of contact_with_plane.
+/// Of the triangles of a mesh, the one with the least s owns the contact at a seam. state and errors as of
+/// contact_with_plane.
 #[pyfunction(name = "contact_with_triangle")]
 #[pyo3(signature = (a, pose, triangle, settings=None, state=None))]
 fn with_triangle(

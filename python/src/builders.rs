@@ -90,11 +90,12 @@ fn built(
     PyShape::of(py, shape)
 }
 
-/// Of half-spaces, rows (a, b, c, h) with a x + b y + c z <= h inside, or (normals, offsets): the faces of the particle are where these planes are.
+/// Of half-spaces, rows (a, b, c, h) with a x + b y + c z <= h inside, or (normals, offsets): the faces of the particle
+/// are where these planes are.
 ///
-/// Planes that make no face are left out. rounding: r as a share of the size, the diameter of the largest ball that fits in the
-/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
-/// ValueError: no volume, or no point inside.
+/// Planes that make no face are left out. rounding: r as a share of the size, the diameter of the largest ball that
+/// fits in the sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: no volume, or no point
+/// inside.
 #[pyfunction]
 #[pyo3(signature = (planes, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
@@ -112,8 +113,9 @@ fn half_spaces(
 
 /// Of the convex hull of points (n, 3), rounded inwards: no part lies outside the hull.
 ///
-/// Triangles that are coplanar to 1e-6 of the extent are one face. rounding: r as a share of the size, the diameter of the largest ball that fits in the
-/// sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: flat points.
+/// Triangles that are coplanar to 1e-6 of the extent are one face. rounding: r as a share of the size, the diameter of
+/// the largest ball that fits in the sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError:
+/// flat points.
 #[pyfunction]
 #[pyo3(signature = (points, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]
@@ -153,8 +155,9 @@ fn surface(
 
 /// Of a closed convex surface in a file, .stl (binary or text) or .obj, all lengths multiplied by scale.
 ///
-/// hull=True takes the convex hull of its points. rounding: r as a share of the size, the diameter of the largest ball that fits in the
-/// sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: as of surface, and files that cannot be read.
+/// hull=True takes the convex hull of its points. rounding: r as a share of the size, the diameter of the largest ball
+/// that fits in the sharp shape, or in its place r, a length; k: sphericity; R: a length. ValueError: as of surface,
+/// and files that cannot be read.
 #[pyfunction]
 #[pyo3(signature = (file, *, hull=false, scale=1.0, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case, clippy::too_many_arguments)]
@@ -263,10 +266,11 @@ fn cuboid(
     built(py, (rounding, k, r, R), |rounding| shapes::cuboid(edges, rounding))
 }
 
-/// A regular prism along z from -height/2 to height/2; radius: of the circle within its section; the first side faces x.
+/// A regular prism along z from -height/2 to height/2; radius: of the circle within its section; the first side faces
+/// x.
 ///
-/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. rounding: r as a share of the size, the diameter of the largest ball that fits in the
-/// sharp shape, or in its place r, a length; k: sphericity; R: a length.
+/// top_radius: that at the upper end, a frustum; 0 makes a pyramid. rounding: r as a share of the size, the diameter of
+/// the largest ball that fits in the sharp shape, or in its place r, a length; k: sphericity; R: a length.
 #[pyfunction]
 #[pyo3(signature = (sides=6, radius=0.5, height=1.0, top_radius=None, *, rounding=0.05, k=0.02, r=None, R=None))]
 #[allow(non_snake_case, clippy::too_many_arguments)]

@@ -14,7 +14,8 @@ use pyo3::PyClass;
 use pyo3::pyclass::boolean_struct::True;
 use pyo3::types::{PyBytes, PyCFunction, PyDict, PyTuple};
 
-/// What an ordered pair keeps from call to call. Copied and pickled, it keeps the solution, from which the next call starts.
+/// What an ordered pair keeps from call to call. Copied and pickled, it keeps the solution, from which the next call
+/// starts.
 #[pyclass(name = "PairState", module = "potential_particles")]
 #[derive(Default)]
 pub struct PyPairState(pub PairState);
@@ -43,12 +44,14 @@ impl PyPairState {
 
 /// The answer for one pair, world frame, lengths in the caller's unit. What does not apply is NaN.
 ///
-/// kind: "separated" (s >= 1) or "overlapping", which `overlapping` tells, too. s: midway: the least t with s_A <= t and s_B <= t at one point, s = sqrt(S);
-/// closest: s_A at point_on_b, and s_b: s_B at point_on_a; of a pair that was rejected a proved lower bound, >= 1. gap: |s - s*| <= gap.
-/// weight: u in (1-u) grad S_A + u grad S_B = 0 at the solution. overlap: length, along the normal between the surfaces; closest: |point_on_a - point_on_b|.
-/// distance: of separated bodies a lower bound, length, 0 where none is known. normal: unit, from A to B. point: contact point; point_bound: estimated
-/// distance to the exact one, length. branch_a, branch_b: point minus the position of A, of B. point_on_a, point_on_b: on the surfaces, where they overlap.
-/// flags: names of what else is to be known. formulation: that which was answered. iterations: quadratics solved. record(): as a record of contact_type.
+/// kind: "separated" (s >= 1) or "overlapping", which `overlapping` tells, too. s: midway: the least t with s_A <= t
+/// and s_B <= t at one point, s = sqrt(S); closest: s_A at point_on_b, and s_b: s_B at point_on_a; of a pair that was
+/// rejected a proved lower bound, >= 1. gap: |s - s*| <= gap. weight: u in (1-u) grad S_A + u grad S_B = 0 at the
+/// solution. overlap: length, along the normal between the surfaces; closest: |point_on_a - point_on_b|. distance: of
+/// separated bodies a lower bound, length, 0 where none is known. normal: unit, from A to B. point: contact point;
+/// point_bound: estimated distance to the exact one, length. branch_a, branch_b: point minus the position of A, of B.
+/// point_on_a, point_on_b: on the surfaces, where they overlap. flags: names of what else is to be known. formulation:
+/// that which was answered. iterations: quadratics solved. record(): as a record of contact_type.
 #[pyclass(name = "Contact", module = "potential_particles", frozen)]
 pub struct PyContact(pub Contact);
 
@@ -167,9 +170,9 @@ pub fn names(bits: u32, flags: impl std::fmt::Display) -> Vec<String> {
 
 /// The contact of particle A at pose_a with particle B at pose_b, as a Contact: world axes, normal from A to B.
 ///
-/// Midway: the least t with s_A <= t and s_B <= t; they overlap if it is below 1 (Boon, Houlsby & Utili, eqs 4, 44). Closest: s_A at its least where
-/// s_B <= 1, and the swap (eqs 3, 9). state: a PairState of this ordered pair, read, and updated on success.
-/// ContactError: no solver reached an answer; that does not mean separated.
+/// Midway: the least t with s_A <= t and s_B <= t; they overlap if it is below 1 (Boon, Houlsby & Utili, eqs 4, 44).
+/// Closest: s_A at its least where s_B <= 1, and the swap (eqs 3, 9). state: a PairState of this ordered pair, read,
+/// and updated on success. ContactError: no solver reached an answer; that does not mean separated.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, settings=None, state=None))]
 fn detect(
@@ -194,7 +197,8 @@ pickled!(PyClosestPoint: ClosestPoint);
 
 /// The point on one particle, on="a" or "b", where the scale of the other is least (eqs 3, 9), as a ClosestPoint.
 ///
-/// None where there is none: the other particle's centre (for k = 0, its core) lies inside this one. ContactError as of detect.
+/// None where there is none: the other particle's centre (for k = 0, its core) lies inside this one. ContactError as of
+/// detect.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, on, settings=None))]
 fn closest_point(
@@ -214,9 +218,11 @@ fn closest_point(
     found.map(|point| point.map(PyClosestPoint)).map_err(of_contact)
 }
 
-/// Area, length^2, that the plane through the contact point normal to the contact normal cuts out of both particles; 0 when separated.
+/// Area, length^2, that the plane through the contact point normal to the contact normal cuts out of both particles; 0
+/// when separated.
 ///
-/// It is in closed form; tolerance, in [1e-12, 0.1], counts where rounding forbids that. ValueError: the contact is of other bodies or poses.
+/// It is in closed form; tolerance, in [1e-12, 0.1], counts where rounding forbids that. ValueError: the contact is of
+/// other bodies or poses.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, tolerance=1e-6))]
 fn contact_area(

@@ -50,8 +50,9 @@ macro_rules! row_getters {
     };
 }
 
-/// Derivatives of a contact in the poses of A and B: numbers (12,), vectors (3, 12), world axes. Columns: a shift of A along x, y, z, a turn of A
-/// about its position and x, y, z in radians, then the same of B. What is NaN in the contact is NaN here.
+/// Derivatives of a contact in the poses of A and B: numbers (12,), vectors (3, 12), world axes. Columns: a shift of A
+/// along x, y, z, a turn of A about its position and x, y, z in radians, then the same of B. What is NaN in the contact
+/// is NaN here.
 #[pyclass(name = "ContactDerivatives", module = "potential_particles", frozen)]
 pub struct PyContactDerivatives(ContactDerivatives);
 
@@ -71,7 +72,8 @@ impl PyContactDerivatives {
 
 pickled!(PyContactDerivatives: ContactDerivatives);
 
-/// Derivatives of a patch in the poses of A and B over K, as of ContactDerivatives: minus the second derivative of its energy.
+/// Derivatives of a patch in the poses of A and B over K, as of ContactDerivatives: minus the second derivative of its
+/// energy.
 #[pyclass(name = "PatchDerivatives", module = "potential_particles", frozen)]
 pub struct PyPatchDerivatives(PatchDerivatives);
 
@@ -166,8 +168,9 @@ fn weights(numbers: [f64; 3], vectors: [(Option<&Bound<'_, PyAny>>, &str); 4]) -
 
 /// The derivatives of a contact in the poses of both bodies, as ContactDerivatives.
 ///
-/// contact: the answer of detect for the same bodies, poses and settings; it is not solved again. By the implicit function theorem on the
-/// optimality conditions at the contact point. ValueError: the contact has no point, or no derivative there.
+/// contact: the answer of detect for the same bodies, poses and settings; it is not solved again. By the implicit
+/// function theorem on the optimality conditions at the contact point. ValueError: the contact has no point, or no
+/// derivative there.
 #[pyfunction(name = "contact_derivatives")]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, settings=None))]
 fn of_pair(
@@ -183,12 +186,14 @@ fn of_pair(
         .map_err(of_derivative)
 }
 
-/// The derivatives of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their contact, as a ContactGradient.
+/// The derivatives of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their contact,
+/// as a ContactGradient.
 ///
-/// s, s_b, overlap, normal, ...: derivatives of the cost in these numbers of the contact, 0 unless given. The work is linear in the number of
-/// active planes. contact, errors: as of contact_derivatives.
+/// s, s_b, overlap, normal, ...: derivatives of the cost in these numbers of the contact, 0 unless given. The work is
+/// linear in the number of active planes. contact, errors: as of contact_derivatives.
 #[pyfunction(name = "contact_gradient")]
-#[pyo3(signature = (a, pose_a, b, pose_b, contact, settings=None, *, s=0.0, s_b=0.0, overlap=0.0, normal=None, point=None, point_on_a=None, point_on_b=None))]
+#[pyo3(signature = (a, pose_a, b, pose_b, contact, settings=None, *, s=0.0, s_b=0.0, overlap=0.0, normal=None,
+                   point=None, point_on_a=None, point_on_b=None))]
 #[allow(clippy::too_many_arguments)]
 fn gradient_of_pair(
     a: &PyParticle,
@@ -216,8 +221,9 @@ fn gradient_of_pair(
     Ok(PyContactGradient { poses, shapes: [Some(of_a), Some(of_b)], flags })
 }
 
-/// The derivatives of a contact with a plane, or with the given triangle, as ContactDerivatives: point_on_a is on_particle, point_on_b is
-/// on_boundary, and the boundary stands in place of B. It turns about the position of A, too. ValueError: as of contact_derivatives.
+/// The derivatives of a contact with a plane, or with the given triangle, as ContactDerivatives: point_on_a is
+/// on_particle, point_on_b is on_boundary, and the boundary stands in place of B. It turns about the position of A,
+/// too. ValueError: as of contact_derivatives.
 #[pyfunction(name = "boundary_derivatives")]
 #[pyo3(signature = (a, pose, contact, triangle=None, settings=None))]
 fn of_boundary(
@@ -233,10 +239,11 @@ fn of_boundary(
         .map_err(of_derivative)
 }
 
-/// The derivatives of a cost in the pose and shape of A and in the pose of a boundary, as a ContactGradient; otherwise as contact_gradient and
-/// boundary_derivatives.
+/// The derivatives of a cost in the pose and shape of A and in the pose of a boundary, as a ContactGradient; otherwise
+/// as contact_gradient and boundary_derivatives.
 #[pyfunction(name = "boundary_gradient")]
-#[pyo3(signature = (a, pose, contact, triangle=None, settings=None, *, s=0.0, overlap=0.0, normal=None, point=None, on_particle=None, on_boundary=None))]
+#[pyo3(signature = (a, pose, contact, triangle=None, settings=None, *, s=0.0, overlap=0.0, normal=None, point=None,
+                   on_particle=None, on_boundary=None))]
 #[allow(clippy::too_many_arguments)]
 fn gradient_of_boundary(
     a: &PyParticle,

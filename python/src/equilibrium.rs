@@ -15,7 +15,8 @@ use std::collections::HashSet;
 #[pyclass(name = "Scene", module = "potential_particles.equilibrium")]
 pub struct PyScene(Scene);
 
-/// An invalid scene raises a ValueError; a program that does not converge a RuntimeError, since the scene may stand or fall.
+/// An invalid scene raises a ValueError; a program that does not converge a RuntimeError, since the scene may stand or
+/// fall.
 fn raised(error: EquilibriumError) -> PyErr {
     match error {
         EquilibriumError::NotConverged { .. } | EquilibriumError::NotSettled { .. } => {
@@ -36,7 +37,8 @@ impl PyScene {
         Self(Scene::default())
     }
 
-    /// The blocks of a rock mass under unit_weight (3,), force over volume. held: indices of blocks. friction = tan phi, cohesion, tension: of all joints.
+    /// The blocks of a rock mass under unit_weight (3,), force over volume. held: indices of blocks. friction = tan
+    /// phi, cohesion, tension: of all joints.
     #[staticmethod]
     #[pyo3(signature = (mass, unit_weight, *, held, friction, cohesion=0.0, tension=0.0))]
     fn of_rock(
@@ -57,8 +59,10 @@ impl PyScene {
         Ok(Self(Scene::of_rock(mass.mass(), weight, |block| held.contains(&block), |_| strength)))
     }
 
-    /// Adds a body and returns its index. force and torque about its centre are there; live ones are multiplied by the load factor.
-    #[pyo3(signature = (centre, *, held=false, force=[0.0; 3], torque=[0.0; 3], live_force=[0.0; 3], live_torque=[0.0; 3]))]
+    /// Adds a body and returns its index. force and torque about its centre are there; live ones are multiplied by the
+    /// load factor.
+    #[pyo3(signature = (centre, *, held=false, force=[0.0; 3], torque=[0.0; 3], live_force=[0.0; 3],
+                        live_torque=[0.0; 3]))]
     fn add_body(
         &mut self,
         centre: &Bound<'_, PyAny>,
@@ -74,7 +78,8 @@ impl PyScene {
         Ok(self.0.bodies.len() - 1)
     }
 
-    /// Adds a contact of two bodies: corners (n, 3) in order, normal from the first to the second. friction = tan phi; cohesion and tension are stresses.
+    /// Adds a contact of two bodies: corners (n, 3) in order, normal from the first to the second. friction = tan phi;
+    /// cohesion and tension are stresses.
     #[pyo3(signature = (first, second, corners, normal, *, friction, cohesion=0.0, tension=0.0))]
     #[allow(clippy::too_many_arguments)]
     fn add_contact(
@@ -94,7 +99,8 @@ impl PyScene {
         Ok(self.0.contacts.len() - 1)
     }
 
-    /// Gives each free body the live force acceleration times its dead force, along direction (3,): an earthquake as a share of gravity.
+    /// Gives each free body the live force acceleration times its dead force, along direction (3,): an earthquake as a
+    /// share of gravity.
     fn push(&mut self, direction: &Bound<'_, PyAny>) -> PyResult<()> {
         let along = Vector3::from(vector::<3>(direction, "direction")?);
         for body in &mut self.0.bodies {
@@ -132,13 +138,15 @@ impl PyScene {
         py.detach(|| library::stands(&self.0)).map(PyEquilibrium).map_err(raised)
     }
 
-    /// The largest multiple of the live loads that can be borne. dilatant=True: the bound by one program, in which joints open as they slip.
+    /// The largest multiple of the live loads that can be borne. dilatant=True: the bound by one program, in which
+    /// joints open as they slip.
     #[pyo3(signature = (*, dilatant=false))]
     fn load_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
         py.detach(|| library::load_factor(&self.0, flow(dilatant))).map(PyEquilibrium).map_err(raised)
     }
 
-    /// The factor of safety on tan phi and cohesion. dilatant=True: the bound by programs in which joints open as they slip.
+    /// The factor of safety on tan phi and cohesion. dilatant=True: the bound by programs in which joints open as they
+    /// slip.
     #[pyo3(signature = (*, dilatant=false))]
     fn strength_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
         py.detach(|| library::strength_factor(&self.0, flow(dilatant))).map(PyEquilibrium).map_err(raised)

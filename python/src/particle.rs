@@ -10,9 +10,9 @@ use pyo3::prelude::*;
 
 /// A validated potential particle, immutable: {x: (1-k)/r^2 sum <n.x - d>^2 + k/R^2 |x|^2 <= 1}, local frame.
 ///
-/// planes: rows (a, b, c, d) with outward normals, or (normals, offsets); a face of the finished particle lies near d + r. r: rounding radius, R:
-/// radius of
-/// the shadow sphere, lengths; k: sphericity, in [0, 1]. ValueError: says which number is at fault.
+/// planes: rows (a, b, c, d) with outward normals, or (normals, offsets); a face of the finished particle lies near d +
+/// r. r: rounding radius, R: radius of the shadow sphere, lengths; k: sphericity, in [0, 1]. ValueError: says which
+/// number is at fault.
 #[pyclass(name = "Particle", module = "potential_particles", frozen)]
 pub struct PyParticle(pub Particle);
 

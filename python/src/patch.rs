@@ -14,16 +14,19 @@ use potential_particles::{
 use pyo3::prelude::*;
 use std::cell::RefCell;
 
-/// The surface {s_A = s_B <= 1} on which two bodies press on each other with p = K l (1 - s), world axes, on B; what is proportional to the stiffness K per
-/// area (force/length^3) is given over K. c: the contact point of two bodies; on_boundary of a contact with a plane or triangle, which stands for B.
+/// The surface {s_A = s_B <= 1} on which two bodies press on each other with p = K l (1 - s), world axes, on B; what is
+/// proportional to the stiffness K per area (force/length^3) is given over K. c: the contact point of two bodies;
+/// on_boundary of a contact with a plane or triangle, which stands for B.
 ///
-/// length: l, the sum of both depth_length (of A alone on a boundary). force: integral of p n, length^3. torque: integral of (x - c) x p n, length^4.
-/// pressure_centre: of the axis of the wrench the point in the plane of the patch, world frame; branch_a, branch_b: it minus the position of A, of B (on a boundary:
-/// of A again). couple: along that axis, length^4. area: length^2. centroid: minus pressure_centre. second_moment: integral of y y^T about the centroid; polar_moment: of
-/// |y|^2 about the axis, length^4. twist_lever: integral of p |y| over that of p, length. mean_depth, largest_depth: of l (1 - s), length. energy: length^4,
-/// NaN unless asked for. stiffness (6, 6): change of force and torque (rows) with a shift and a turn of A about c (columns), NaN unless asked for.
-/// error, area_error: estimated, relative. points: rows of x - c (3), area, depth l (1 - s) and normal (3) of the points of quadrature. flags: names of
-/// what else is to be known.
+/// length: l, the sum of both depth_length (of A alone on a boundary). force: integral of p n, length^3. torque:
+/// integral of (x - c) x p n, length^4. pressure_centre: of the axis of the wrench the point in the plane of the patch,
+/// world frame; branch_a, branch_b: it minus the position of A, of B (on a boundary: of A again). couple: along that
+/// axis, length^4. area: length^2. centroid: minus pressure_centre. second_moment: integral of y y^T about the
+/// centroid; polar_moment: of |y|^2 about the axis, length^4. twist_lever: integral of p |y| over that of p, length.
+/// mean_depth, largest_depth: of l (1 - s), length. energy: length^4, NaN unless asked for. stiffness (6, 6): change of
+/// force and torque (rows) with a shift and a turn of A about c (columns), NaN unless asked for. error, area_error:
+/// estimated, relative. points: rows of x - c (3), area, depth l (1 - s) and normal (3) of the points of quadrature.
+/// flags: names of what else is to be known.
 #[pyclass(name = "Patch", module = "potential_particles", frozen)]
 pub struct PyPatch(pub Patch, Vec<PatchPoint>);
 
@@ -47,7 +50,8 @@ impl PyPatch {
         to_rows(py, (0..6).map(|i| [0, 1, 2, 3, 4, 5].map(|j| self.0.stiffness[(i, j)])))
     }
 
-    /// Rows of position (3, from the contact point; on a boundary from on_boundary), area, depth and normal (3) of each point of quadrature.
+    /// Rows of position (3, from the contact point; on a boundary from on_boundary), area, depth and normal (3) of each
+    /// point of quadrature.
     #[getter]
     fn points<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         let row = |point: &PatchPoint| {
@@ -79,10 +83,11 @@ fn made(
     Ok(PyPatch(patch, points))
 }
 
-/// The patch {s_A = s_B <= 1} of an overlapping contact, with the pressure K l (1 - s) on it, as a Patch; world axes, all over K.
+/// The patch {s_A = s_B <= 1} of an overlapping contact, with the pressure K l (1 - s) on it, as a Patch; world axes,
+/// all over K.
 ///
-/// tolerance: relative, of force and torque, in [1e-12, 0.1]. energy, stiffness: whether these are computed, too. Its points are the points of
-/// quadrature. ValueError: the contact is separated, or the tolerance out of range.
+/// tolerance: relative, of force and torque, in [1e-12, 0.1]. energy, stiffness: whether these are computed, too. Its
+/// points are the points of quadrature. ValueError: the contact is separated, or the tolerance out of range.
 #[pyfunction(name = "patch_of_contact")]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, *, tolerance=1e-4, energy=false, stiffness=false))]
 #[allow(clippy::too_many_arguments)]
@@ -118,9 +123,11 @@ fn on_plane(
     })
 }
 
-/// The patch of an overlapping contact with a triangle: the part of the triangle inside A. Otherwise as patch_of_contact.
+/// The patch of an overlapping contact with a triangle: the part of the triangle inside A. Otherwise as
+/// patch_of_contact.
 ///
-/// from_front: A counts as in front, where the vertices run counter-clockwise, as for the mesh of a closed body seen from outside.
+/// from_front: A counts as in front, where the vertices run counter-clockwise, as for the mesh of a closed body seen
+/// from outside.
 #[pyfunction(name = "patch_on_triangle")]
 #[pyo3(signature = (a, pose, triangle, contact, *, from_front=true, tolerance=1e-4, energy=false, stiffness=false))]
 #[allow(clippy::too_many_arguments)]

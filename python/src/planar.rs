@@ -172,7 +172,8 @@ impl PyPlanarContact {
 
 pickled!(PyPlanarContact: Contact);
 
-/// The contact of particle A at pose_a with particle B at pose_b, as a planar.Contact; settings, state and errors as of detect in space.
+/// The contact of particle A at pose_a with particle B at pose_b, as a planar.Contact; settings, state and errors as of
+/// detect in space.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, settings=None, state=None))]
 fn detect(
@@ -189,7 +190,8 @@ fn detect(
     found.map(PyPlanarContact).map_err(of_contact)
 }
 
-/// How much of the line through the contact point normal to the contact normal lies in both particles, length; 0 when separated.
+/// How much of the line through the contact point normal to the contact normal lies in both particles, length; 0 when
+/// separated.
 #[pyfunction]
 fn contact_length(
     a: &PyPlanarParticle,
@@ -205,7 +207,8 @@ fn contact_length(
     length.ok_or_else(|| refused("the contact has no finite point and normal"))
 }
 
-/// The curve on which two bodies press on each other; what is proportional to the stiffness K per area is given over K, all per unit of thickness.
+/// The curve on which two bodies press on each other; what is proportional to the stiffness K per area is given over K,
+/// all per unit of thickness.
 #[pyclass(name = "Patch", module = "potential_particles.planar", frozen)]
 pub struct PyPlanarPatch(Patch, Vec<PatchPoint>);
 
@@ -219,7 +222,8 @@ impl PyPlanarPatch {
         names(self.0.flags.bits(), self.0.flags)
     }
 
-    /// Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and columns x, y and angle.
+    /// Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and columns
+    /// x, y and angle.
     #[getter]
     fn stiffness<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         to_rows(py, (0..3).map(|i| [0, 1, 2].map(|j| self.0.stiffness[(i, j)])))
@@ -238,9 +242,14 @@ impl PyPlanarPatch {
     }
 }
 
-pickled!(PyPlanarPatch: (Patch, Vec<PatchPoint>), |object| (object.0, &object.1), |_py, (patch, points)| Self(patch, points));
+pickled!(
+    PyPlanarPatch: (Patch, Vec<PatchPoint>),
+    |object| (object.0, &object.1),
+    |_py, (patch, points)| Self(patch, points)
+);
 
-/// The patch {s_A = s_B <= 1} of an overlapping contact of the plane, as a planar.Patch; otherwise as patch_of_contact in space.
+/// The patch {s_A = s_B <= 1} of an overlapping contact of the plane, as a planar.Patch; otherwise as patch_of_contact
+/// in space.
 #[pyfunction(name = "patch_of_contact")]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, *, tolerance=1e-4, energy=false))]
 fn patch(

@@ -6,7 +6,8 @@ use numpy::{PyArray1, PyArray2};
 use potential_particles::Pose;
 use pyo3::prelude::*;
 
-/// Where a body is: world = rotation local + position, with a quaternion (w, x, y, z) of any length. ValueError: numbers that make no pose.
+/// Where a body is: world = rotation local + position, with a quaternion (w, x, y, z) of any length. ValueError:
+/// numbers that make no pose.
 #[pyclass(name = "Pose", module = "potential_particles", frozen, eq)]
 #[derive(PartialEq)]
 pub struct PyPose(pub Pose);

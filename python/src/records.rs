@@ -67,7 +67,8 @@ pub fn contact_type(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
     Ok(made.bind(py))
 }
 
-/// The bytes of a contiguous array of one dimension and this type, or for `width` doubles a record of an array (n, width) of doubles.
+/// The bytes of a contiguous array of one dimension and this type, or for `width` doubles a record of an array (n,
+/// width) of doubles.
 fn bytes<'py>(
     array: &Bound<'py, PyAny>,
     kind: &Bound<'py, PyAny>,

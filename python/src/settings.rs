@@ -7,12 +7,12 @@ use pyo3::types::PyDict;
 
 /// How to solve; immutable.
 ///
-/// formulation: "midway" or "closest". solve_separated: solve separated pairs to the end as well. gap_tolerance: relative gap of s^2 at which the
-/// solver may stop, in (0, 0.1]; below 1e-13 it goes on in extended precision. weight_on_a: of the point on A in the contact point of closest, in
-/// [0, 1].
-/// flat_regularisation: sphericity below which the position on a flat face is regularised, in [0, 0.1]. carry_tolerance: to what part of the smaller
-/// bounding radius the point of a contact has to be known that is carried on from the last step, in [0, 0.1]; 0: every contact is solved.
-/// ValueError: a number out of range.
+/// formulation: "midway" or "closest". solve_separated: solve separated pairs to the end as well. gap_tolerance:
+/// relative gap of s^2 at which the solver may stop, in (0, 0.1]; below 1e-13 it goes on in extended precision.
+/// weight_on_a: of the point on A in the contact point of closest, in [0, 1]. flat_regularisation: sphericity below
+/// which the position on a flat face is regularised, in [0, 0.1]. carry_tolerance: to what part of the smaller bounding
+/// radius the point of a contact has to be known that is carried on from the last step, in [0, 0.1]; 0: every contact
+/// is solved. ValueError: a number out of range.
 #[pyclass(name = "Settings", module = "potential_particles", frozen, eq)]
 #[derive(PartialEq)]
 pub struct PySettings(pub Settings);

@@ -46,11 +46,11 @@ impl PyJoint {
 
 pickled!(PyJoint: Joint);
 
-/// The joints of a set, as a list of Joint: those that cross the line through centre along their mean normal within reach of it.
+/// The joints of a set, as a list of Joint: those that cross the line through centre along their mean normal within
+/// reach of it.
 ///
-/// dip, dip_direction: degrees, from horizontal and clockwise from north. spacing: mean, length; exponential: drawn from that distribution. fisher:
-/// kappa of
-/// Fisher's distribution of normals. The numbers drawn depend on seed alone.
+/// dip, dip_direction: degrees, from horizontal and clockwise from north. spacing: mean, length; exponential: drawn
+/// from that distribution. fisher: kappa of Fisher's distribution of normals. The numbers drawn depend on seed alone.
 #[pyfunction]
 #[pyo3(signature = (dip, dip_direction, spacing, *, centre, reach, exponential=false, fisher=f64::INFINITY, seed=0))]
 #[allow(clippy::too_many_arguments)]
@@ -134,7 +134,8 @@ impl PyBlock {
         to_vector(py, &self.block().faces.iter().map(|face| face.area).collect::<Vec<_>>())
     }
 
-    /// (n,): the part of each that lies in the true extent of its joint, a disc or polygon; all of it where the joint has no end, 0 on other planes.
+    /// (n,): the part of each that lies in the true extent of its joint, a disc or polygon; all of it where the joint
+    /// has no end, 0 on other planes.
     #[getter]
     fn jointed_areas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
         to_vector(py, &self.block().faces.iter().map(|face| face.jointed_area).collect::<Vec<_>>())
@@ -207,12 +208,14 @@ pickled!(PyRockMass: RockMass, |object| *object.0, |_py, mass| Self(Arc::new(mas
 
 /// A convex domain {a x + b y + c z <= d}, planes (n, 4), cut by joints in their order, as a RockMass.
 ///
-/// A joint cuts each block that it meets in two, but for parts of less than least_volume, thinner than least_thickness in the mean (2V/A), whose largest
-/// ball has a diameter below least_width, or whose extent along an axis is above largest_aspect times that. regions: convex regions as lists of planes,
-/// such as a tunnel, which cut the blocks that they meet after all joints. The result does not depend on threads. ValueError: a domain that is empty
-/// or open, or more than most_blocks.
+/// A joint cuts each block that it meets in two, but for parts of less than least_volume, thinner than least_thickness
+/// in the mean (2V/A), whose largest ball has a diameter below least_width, or whose extent along an axis is above
+/// largest_aspect times that. regions: convex regions as lists of planes, such as a tunnel, which cut the blocks that
+/// they meet after all joints. The result does not depend on threads. ValueError: a domain that is empty or open, or
+/// more than most_blocks.
 #[pyfunction]
-#[pyo3(signature = (domain, joints, *, regions=vec![], least_volume=0.0, least_thickness=0.0, least_width=0.0, largest_aspect=f64::INFINITY, most_blocks=1_000_000, threads=1))]
+#[pyo3(signature = (domain, joints, *, regions=vec![], least_volume=0.0, least_thickness=0.0, least_width=0.0,
+                    largest_aspect=f64::INFINITY, most_blocks=1_000_000, threads=1))]
 #[allow(clippy::too_many_arguments)]
 fn slice(
     py: Python<'_>,

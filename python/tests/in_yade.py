@@ -12,13 +12,18 @@ def main():
     from potential_particles import builders, rock, shapes, slicing
     from yade import FrictMat, O
     # Each name means what it means without YADE.
-    assert all(getattr(potential_particles, name) is getattr(potential_particles._api, name) for name in potential_particles._api.__all__)
+    assert all(
+        getattr(potential_particles, name) is getattr(potential_particles._api, name)
+        for name in potential_particles._api.__all__)
     O.materials.append(FrictMat())
     places = (0, 0, 0), (0.1, 0.2, 0.45)
     O.bodies.append([potential_particles.body(shapes.cuboid((1, 1, 0.5)), position=place) for place in places])
     shape = O.bodies[0].shape
     particle = potential_particles.Particle(shape.planes, shape.r, shape.k, shape.R)
-    poses = [potential_particles.Pose(tuple(O.bodies[i].state.pos), [O.bodies[i].state.ori[j] for j in (3, 0, 1, 2)]) for i in (0, 1)]
+    poses = [
+        potential_particles.Pose(tuple(O.bodies[i].state.pos), [O.bodies[i].state.ori[j] for j in (3, 0, 1, 2)])
+        for i in (0, 1)
+    ]
     contact = potential_particles.detect(particle, poses[0], particle, poses[1])
     made = builders.cuboid((1, 1, 0.5))
     assert abs(made.volume / potential_particles.shapes.cuboid((1, 1, 0.5)).volume - 1) < 1e-5

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs the tests of the wheel, and the Python blocks of docs/wheel.md, docs/derivatives.md and docs/equilibrium.md one after the other, in the Python that has the wheel.
+"""Runs the tests of the wheel, and the Python blocks of docs/wheel.md, docs/derivatives.md and docs/equilibrium.md one
+after the other, in the Python that has the wheel.
 
     PYTHON python/tests/run.py
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Derivatives against closed forms, differences and each other, and the recipes of docs/derivatives.md where JAX or PyTorch is there."""
+"""Derivatives against closed forms, differences and each other, and the recipes of docs/derivatives.md where JAX or
+PyTorch is there.
+"""
 import contextlib
 import importlib.util
 import io
@@ -37,7 +39,10 @@ def differences(inputs, i, h=1e-6):
 
 def recipe(mark):
     """The block of the page that holds this."""
-    found = [block for block in re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.M | re.S) if mark in block]
+    found = [
+        block for block in re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.M | re.S)
+        if mark in block
+    ]
     names = {"__name__": "recipe"}
     exec(compile(found[0], PAGE.name, "exec"), names)
     return names
@@ -56,7 +61,8 @@ class Derivatives(unittest.TestCase):
         self.assertEqual(d.flags, [])
         self.assertTrue(np.isnan(d.s_b).all())
         w = np.array((0.3, -0.2, 0.9))
-        g = pp.contact_gradient(*self.given, self.contact, s=0.5, overlap=2.0, normal=w, point=w, point_on_a=w, point_on_b=-w)
+        g = pp.contact_gradient(*self.given, self.contact, s=0.5, overlap=2.0, normal=w, point=w, point_on_a=w,
+                                point_on_b=-w)
         expected = 0.5 * d.s + 2 * d.overlap + w @ (d.normal + d.point + d.point_on_a - d.point_on_b)
         np.testing.assert_allclose(g.poses, expected, atol=1e-12)
         self.assertEqual((g.planes_a.shape, g.rounding_a.shape, g.planes_b.shape), ((6, 4), (3,), (0, 4)))
@@ -84,7 +90,9 @@ class Derivatives(unittest.TestCase):
         force = pp.patch_derivatives(patch, self.contact).force
         np.testing.assert_allclose(force[:, :3], force[:, :3].T, atol=1e-3 * np.abs(force[:, :3]).max())
         np.testing.assert_allclose(force[:, 6:9], -force[:, :3], atol=1e-12)
-        self.assertEqual(pp.patch_derivatives(pp.patch_on_plane(self.a, pose, contact, stiffness=True), contact).torque_on_a.shape, (3, 12))
+        self.assertEqual(
+            pp.patch_derivatives(pp.patch_on_plane(self.a, pose, contact, stiffness=True), contact).torque_on_a.shape,
+            (3, 12))
         with self.assertRaisesRegex(ValueError, "stiffness=True"):
             pp.patch_derivatives(pp.patch_of_contact(*self.given, self.contact), self.contact)
 

@@ -49,11 +49,14 @@ class OnePair(unittest.TestCase):
         a, b = cube(0.05), cube(0.3)
         pose_a, pose_b = pp.Pose((0, 0, 0), (1, 0.1, 0.2, 0)), pp.Pose((0.2, 0.3, 1.8), (1, 0, 0.1, 0.4))
         contact = pp.detect(a, pose_a, b, pose_b)
-        potentials = [particle.potential(pose.to_local(contact.point)) + 1 for particle, pose in ((a, pose_a), (b, pose_b))]
+        potentials = [
+            particle.potential(pose.to_local(contact.point)) + 1 for particle, pose in ((a, pose_a), (b, pose_b))
+        ]
         np.testing.assert_allclose(potentials, contact.s**2, atol=1e-10)
         for point, particle, pose in ((contact.point_on_a, a, pose_a), (contact.point_on_b, b, pose_b)):
             self.assertAlmostEqual(particle.potential(pose.to_local(point)), 0, delta=1e-9)
-        np.testing.assert_allclose(contact.point_on_a - contact.point_on_b, contact.overlap * contact.normal, atol=1e-12)
+        np.testing.assert_allclose(contact.point_on_a - contact.point_on_b, contact.overlap * contact.normal,
+                                   atol=1e-12)
 
     def test_closest(self):
         ball, settings = pp.Particle.sphere(1.0), pp.Settings("closest", weight_on_a=0.25)
@@ -123,7 +126,8 @@ class Batches(unittest.TestCase):
         out = np.zeros(len(pairs), pp.contact_type)
         self.assertIs(pp.detect_batch(particles, poses, pairs, out=out), out)
         rows = poses.view(float).reshape(-1, 7)
-        np.testing.assert_array_equal(out.view(np.uint64), pp.detect_batch(particles, rows, pairs.tolist()).view(np.uint64))
+        np.testing.assert_array_equal(out.view(np.uint64),
+                                      pp.detect_batch(particles, rows, pairs.tolist()).view(np.uint64))
         for bad in (out[::2], np.zeros(len(pairs)), np.zeros(3, pp.contact_type)):
             with self.assertRaisesRegex(ValueError, "out"):
                 pp.detect_batch(particles, poses, pairs, out=bad)
@@ -170,16 +174,19 @@ class Batches(unittest.TestCase):
         row = poses.view(float).reshape(-1, 7)
         buffer = np.zeros(8 * len(pairs) + 3, np.uint8)
         # No rows as numpy makes them: new, of a larger array, of a part of a buffer that begins anywhere.
-        no_pairs = ([], (), np.zeros((0, 2), np.uint32), np.zeros((0, 2), np.int64), np.zeros((0, 2)), pairs[:0], pairs[5:5], pairs[::-3][:0],
-                    buffer[3:3].view(np.uint32).reshape(0, 2), np.column_stack([np.zeros(0, int)] * 2))
-        no_contacts = (None, np.empty(0, pp.contact_type), np.empty(5, pp.contact_type)[3:3], buffer[1:1].view(pp.contact_type))
+        no_pairs = ([], (), np.zeros((0, 2), np.uint32), np.zeros((0, 2), np.int64), np.zeros(
+            (0, 2)), pairs[:0], pairs[5:5], pairs[::-3][:0], buffer[3:3].view(np.uint32).reshape(0, 2),
+                    np.column_stack([np.zeros(0, int)] * 2))
+        no_contacts = (None, np.empty(0, pp.contact_type), np.empty(5, pp.contact_type)[3:3], buffer[1:1].view(
+            pp.contact_type))
         no_poses = (np.zeros(0, pp.pose_type), np.zeros((0, 7)), poses[7:7], row[:0], buffer[1:1].view(pp.pose_type))
         for bodies, places in [(particles, poses), (particles, row), *(([], places) for places in no_poses)]:
             for given in no_pairs:
                 for out in no_contacts:
                     for remember in (True, False):
                         batch = pp.Batch(bodies, remember=remember, threads=2)
-                        for found in (batch.detect(places, given, out), pp.detect_batch(bodies, places, given, out=out)):
+                        for found in (batch.detect(places, given, out), pp.detect_batch(bodies, places, given,
+                                                                                        out=out)):
                             self.assertEqual((found.shape, found.dtype), ((0,), pp.contact_type))
                         self.assertEqual((batch.pairs.shape, batch.solutions.shape), ((0, 2), (0, 8)))
         with self.assertRaisesRegex(IndexError, "pair 0: body 0 does not exist: there are 0"):
@@ -207,7 +214,8 @@ class Batches(unittest.TestCase):
             buffer[:] = array.reshape(-1).view(np.uint8)
             return buffer.view(array.dtype).reshape(array.shape)
         self.assertFalse(moved(pairs).flags.aligned)
-        for places in (moved(pairs), np.asfortranarray(pairs), moved(np.asfortranarray(pairs).T).T, np.repeat(pairs, 2, 0)[::2]):
+        for places in (moved(pairs), np.asfortranarray(pairs), moved(np.asfortranarray(pairs).T).T,
+                       np.repeat(pairs, 2, 0)[::2]):
             found = pp.detect_batch(particles, poses, places)
             np.testing.assert_array_equal(found.view(np.uint64), expected.view(np.uint64))
         np.testing.assert_array_equal(pp.Particle(moved(CUBE), 0.1).planes, CUBE)
@@ -284,7 +292,8 @@ class Kept(unittest.TestCase):
         np.testing.assert_array_equal(pickle.loads(pickle.dumps(state)).solution, state.solution)
 
     def test_answers_are_pickled_and_copied(self):
-        body, poses, floor = cube(0.3), [pp.Pose((0, 0, 0)), pp.Pose((0.1, 0.2, 1.9))], pp.Wall((0, 0, -0.97), (0, 0, 3))
+        body, poses, floor = cube(0.3), [pp.Pose((0, 0, 0)), pp.Pose((0.1, 0.2, 1.9))], pp.Wall((0, 0, -0.97),
+                                                                                                (0, 0, 3))
         contact, apart = pp.detect(body, poses[0], body, poses[1]), pp.detect(body, poses[0], body, pp.Pose((0, 0, 9)))
         flat = pp.contact_with_plane(body, poses[0], floor)
         patch = pp.patch_of_contact(body, poses[0], body, poses[1], contact)
@@ -292,12 +301,20 @@ class Kept(unittest.TestCase):
         places = planar.Pose((0, 0)), planar.Pose((1.9, 0.2))
         in_plane = planar.detect(square, places[0], square, places[1])
         shape = builders.hull(np.random.default_rng(3).normal(size=(20, 3)))
-        joints = slicing.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9, fisher=40) + [slicing.Joint((0, 1, 2), 50, 60, radius=2.0)]
+        joints = slicing.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9,
+                                   fisher=40) + [slicing.Joint((0, 1, 2), 50, 60, radius=2.0)]
         mass = slicing.slice(BOX, joints)
-        for one in [contact, apart, flat, patch, pp.closest_point(body, poses[0], body, poses[1], "a"), body.mass_properties(), body.mesh(0.01), in_plane,
-                    planar.patch_of_contact(square, places[0], square, places[1], in_plane), square.area_properties(), shape, *joints, mass, *mass.blocks[:3],
-                    pp.contact_derivatives(body, poses[0], body, poses[1], contact), pp.contact_gradient(body, poses[0], body, poses[1], contact, overlap=1.0),
-                    pp.boundary_gradient(body, poses[0], flat, overlap=1.0)]:
+        for one in [
+                contact, apart, flat, patch,
+                pp.closest_point(body, poses[0], body, poses[1], "a"),
+                body.mass_properties(),
+                body.mesh(0.01), in_plane,
+                planar.patch_of_contact(square, places[0], square, places[1], in_plane),
+                square.area_properties(), shape, *joints, mass, *mass.blocks[:3],
+                pp.contact_derivatives(body, poses[0], body, poses[1], contact),
+                pp.contact_gradient(body, poses[0], body, poses[1], contact, overlap=1.0),
+                pp.boundary_gradient(body, poses[0], flat, overlap=1.0)
+        ]:
             for again in (pickle.loads(pickle.dumps(one)), copy.copy(one), copy.deepcopy(one)):
                 self.assertIs(type(again), type(one))
                 self.same(again, one)

@@ -27,10 +27,13 @@ def write_stl(file, points, triangles):
 
 class Builders(unittest.TestCase):
     def test_volumes(self):
-        cases = [(builders.cuboid((2, 1, 0.5), rounding=1e-4, k=0), 1.0), (builders.prism(4, 0.5, 3, 0, rounding=1e-4, k=0), 1.0),
-                 (builders.cylinder(1, 2, 64, rounding=1e-4, k=0), 2 * math.pi), (builders.regular_solid(8, rounding=1e-4, k=0), math.sqrt(2) / 3),
+        cases = [(builders.cuboid((2, 1, 0.5), rounding=1e-4, k=0), 1.0),
+                 (builders.prism(4, 0.5, 3, 0, rounding=1e-4, k=0), 1.0),
+                 (builders.cylinder(1, 2, 64, rounding=1e-4, k=0), 2 * math.pi),
+                 (builders.regular_solid(8, rounding=1e-4, k=0), math.sqrt(2) / 3),
                  (builders.sphere(2), 32 / 3 * math.pi),
-                 (builders.half_spaces([(1, 1, 1, 1), (-1, 0, 0, 0), (0, -1, 0, 0), (0, 0, -1, 0)], rounding=1e-4, k=0), 1 / 6)]
+                 (builders.half_spaces([(1, 1, 1, 1), (-1, 0, 0, 0), (0, -1, 0, 0), (0, 0, -1, 0)], rounding=1e-4,
+                                       k=0), 1 / 6)]
         for shape, volume in cases:
             self.assertAlmostEqual(shape.volume / volume, 1, delta=2e-5)
             mass = shape.mass
@@ -55,8 +58,10 @@ class Builders(unittest.TestCase):
     def test_flat_and_far_hulls(self):
         square = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
         for height in (0.02, 1e-4):
-            self.assertAlmostEqual(builders.hull(square + [(0.5, 0.5, height)], k=0, rounding=1e-4).volume * 3 / height, 1, delta=2e-5)
-            self.assertAlmostEqual(builders.hull(square[:3] + [(0, 0, height)], k=0, rounding=1e-4).volume * 6 / height, 1, delta=2e-5)
+            self.assertAlmostEqual(
+                builders.hull(square + [(0.5, 0.5, height)], k=0, rounding=1e-4).volume * 3 / height, 1, delta=2e-5)
+            self.assertAlmostEqual(
+                builders.hull(square[:3] + [(0, 0, height)], k=0, rounding=1e-4).volume * 6 / height, 1, delta=2e-5)
         cube = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
         shape = builders.hull(cube + 1e10, k=0, rounding=1e-4)
         self.assertAlmostEqual(shape.volume, 1, delta=2e-5)
@@ -72,9 +77,9 @@ class Builders(unittest.TestCase):
             self.assertEqual(pickle.loads(pickle.dumps(sphere)), sphere)
             rock = slicing.slice(BOX, [], regions=[])
             self.assertEqual(len(rock.blocks), 1)
-            for make, sentence in [
-                    (lambda: pp.Particle(none, r=0.1), "do not enclose"), (lambda: builders.half_spaces(none), "enclose no volume"),
-                    (lambda: slicing.slice(none, []), "open")]:
+            for make, sentence in [(lambda: pp.Particle(none, r=0.1), "do not enclose"),
+                                   (lambda: builders.half_spaces(none), "enclose no volume"),
+                                   (lambda: slicing.slice(none, []), "open")]:
                 with self.assertRaisesRegex(ValueError, sentence):
                     make()
         for none in ([], np.zeros((0, 3)), np.zeros((0, 3), np.uint32)):
@@ -177,7 +182,8 @@ class Package(unittest.TestCase):
     def test_stubs_name_what_is_there(self):
         folder = Path(pp.__file__).parent
         self.assertTrue((folder / "py.typed").is_file())
-        for name, module in (("_core", pp._core), ("builders", builders), ("slicing", slicing), ("planar", planar), ("equilibrium", equilibrium)):
+        for name, module in (("_core", pp._core), ("builders", builders), ("slicing", slicing), ("planar", planar),
+                             ("equilibrium", equilibrium)):
             tree = ast.parse((folder / f"{name}.pyi").read_text())
             told = {}
             for node in tree.body:
@@ -192,7 +198,8 @@ class Package(unittest.TestCase):
                     members = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in node.body
                                if isinstance(item, (ast.FunctionDef, ast.AnnAssign))}
                     found = {member for member in dir(getattr(module, one)) if not member.startswith("_")}
-                    self.assertEqual({member for member in members if not member.startswith("_")}, found, f"{name}.{one}")
+                    self.assertEqual({member
+                                      for member in members if not member.startswith("_")}, found, f"{name}.{one}")
 
     def test_what_is_public_says_what_it_does(self):
         for module in (pp, builders, slicing, planar, equilibrium):
@@ -204,7 +211,8 @@ class Package(unittest.TestCase):
     def test_demo(self):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder, "contact.png")
-            done = subprocess.run([sys.executable, "-m", "potential_particles", "demo", str(file)], capture_output=True, text=True)
+            done = subprocess.run([sys.executable, "-m", "potential_particles", "demo",
+                                   str(file)], capture_output=True, text=True)
             self.assertIn("overlap", done.stdout)
             if done.returncode == 0:
                 self.assertGreater(file.stat().st_size, 10_000)

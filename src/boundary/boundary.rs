@@ -72,11 +72,12 @@ pub struct Triangle {
     condition: f64,
 }
 
-/// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding, and so
-/// is each product of their components.
+/// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding,
+/// and so is each product of their components.
 const FLAT: f64 = 16.0 * f64::EPSILON;
 
-/// The same sine below which the normal is taken from numbers of 32 digits: the rounding of the sides, over the sine, turns it.
+/// The same sine below which the normal is taken from numbers of 32 digits: the rounding of the sides, over the sine,
+/// turns it.
 const NARROW: f64 = 0.5;
 
 impl Triangle {
@@ -119,7 +120,8 @@ impl Triangle {
         BoundaryPart::Inside { vertices, normal: self.normal, condition: self.condition }
     }
 
-    /// Edge i, between the vertices i and i + 1, in the order of their coordinates; and whether that is the other way round.
+    /// Edge i, between the vertices i and i + 1, in the order of their coordinates; and whether that is the other way
+    /// round.
     pub(super) fn edge(&self, i: usize) -> ([Vector3<f64>; 2], bool) {
         let (from, to) = (self.vertices[i], self.vertices[(i + 1) % 3]);
         let reversed = to.iter().partial_cmp(from.iter()) == Some(std::cmp::Ordering::Less);

@@ -41,14 +41,16 @@ pub(super) struct Search<'a> {
 pub(super) struct Least {
     /// The number of coordinates that a point of the part has.
     pub dimensions: usize,
-    /// Part to world, the centre of the particle in the frame of the part, and the length that the rounding of its place is proportional to.
+    /// Part to world, the centre of the particle in the frame of the part, and the length that the rounding of its
+    /// place is proportional to.
     pub rotation: Matrix3<f64>,
     centre: Vector3<f64>,
     pub lengths: f64,
     /// Whether both are right to the last digits, as the solution is.
     precise: bool,
     pub solution: Solution,
-    /// How steeply S falls from there into the triangle, negative where it rises; and may fall with all that is in doubt.
+    /// How steeply S falls from there into the triangle, negative where it rises; and may fall with all that is in
+    /// doubt.
     inward_descent: f64,
     descent: f64,
     /// Bound on the distance of the point to that of the whole boundary, if it is certain that this lies on the part.
@@ -92,7 +94,8 @@ impl Search<'_> {
             (None, None) => (0.0, 0.0),
         };
         let point_bound = call.point_bound(&solved, Problem::OnBoundary);
-        // Where S provably rises into the triangle from everywhere within the bound, the optimum of the part is that of the triangle.
+        // Where S provably rises into the triangle from everywhere within the bound, the optimum of the part is that of
+        // the triangle.
         let planes = f64::from(solved.model.q_a.count) * call.bodies()[0].stiffest_curvature();
         let doubt = solution.slope + rounding + (planes + call.bodies()[0].sphere_curvature()) * point_bound;
         let dimensions = placed.part.dimensions();
@@ -107,8 +110,8 @@ impl Search<'_> {
         Ok(Least { dimensions, rotation, centre, lengths, precise, solution, inward_descent, descent, point_bound })
     }
 
-    /// The least S on the plane of a boundary, sought from the remembered point if there is one. The other parts are not sought from
-    /// memory: all triangles that share one find the same bits.
+    /// The least S on the plane of a boundary, sought from the remembered point if there is one. The other parts are
+    /// not sought from memory: all triangles that share one find the same bits.
     fn inside(&mut self, plane: &PlacedPart) -> Result<Least, DetectError> {
         let last = self.remembered.map(|x| plane.in_part(&x).xy());
         let least = self.on_part(plane, last.unwrap_or_else(|| self.below(plane)))?;
@@ -116,7 +119,8 @@ impl Search<'_> {
         Ok(least)
     }
 
-    /// A point of a plane near that of the least S: below the corners of the particle that lie beyond it, seen from the centre.
+    /// A point of a plane near that of the least S: below the corners of the particle that lie beyond it, seen from the
+    /// centre.
     fn below(&self, plane: &PlacedPart) -> Vector2<f64> {
         let frame = &plane.frame;
         let towards = -frame.centre.z.signum() * self.pose.rotation().tr_mul(&frame.rotation.column(2));
@@ -144,7 +148,8 @@ impl Search<'_> {
         let inside = self.inside(plane)?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
-        // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the triangle.
+        // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the
+        // triangle.
         let from_edges =
             if inside.precise { plane.wide_from_edges(&triangle.vertices, &x) } else { placed.from_edges(&x) };
         for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
@@ -176,7 +181,8 @@ impl Search<'_> {
         };
         let mut duality_gap = smaller(least.duality_gap(&body, extent), above(&inside) + inside.solution.duality_gap);
         let mut point_bound = least.point_bound;
-        // Nor below that of an edge but for the descent from there, which says more than a vertex that rounding has put in its place.
+        // Nor below that of an edge but for the descent from there, which says more than a vertex that rounding has put
+        // in its place.
         for on_edge in on_edges.iter().flatten() {
             let line = &on_edge.of_line;
             duality_gap = smaller(duality_gap, above(line) + line.duality_gap(&body, extent_from(line)));
@@ -189,8 +195,9 @@ impl Search<'_> {
         if self.precise { self.as_without_triangle(triangle, closest) } else { Ok(closest) }
     }
 
-    /// From a vertex on along an edge that ends there: its least S is no more, and whether it is less is an answer of the edge alone, so that
-    /// all triangles that share it have the same. It may lead to another vertex, but not round in a circle.
+    /// From a vertex on along an edge that ends there: its least S is no more, and whether it is less is an answer of
+    /// the edge alone, so that all triangles that share it have the same. It may lead to another vertex, but not round
+    /// in a circle.
     fn from_vertices(
         &mut self,
         triangle: &Triangle,
@@ -210,8 +217,9 @@ impl Search<'_> {
         Ok(found)
     }
 
-    /// Replaces the point of an edge or a vertex that was found in extended precision by the one that the edge finds without regard to the
-    /// triangle, so that all triangles that share it get the same bits. Its bounds are those found, and what the two differ by.
+    /// Replaces the point of an edge or a vertex that was found in extended precision by the one that the edge finds
+    /// without regard to the triangle, so that all triangles that share it get the same bits. Its bounds are those
+    /// found, and what the two differ by.
     fn as_without_triangle(&mut self, triangle: &Triangle, precise: Closest) -> Result<Closest, DetectError> {
         let edge = match precise.feature {
             Feature::Edge(i) => Some(usize::from(i)),
@@ -319,8 +327,8 @@ fn least_of(on_edges: &[Option<OnEdge>; 3]) -> Option<OnEdge> {
 impl Closest {
     /// s of the regularised particle, with bounds of that of the given one.
     ///
-    /// Where a flat face lies on several triangles, or a core of k = 0 reaches through them, the regularisation alone tells which of
-    /// them is nearest to the centre: it stays part of s, and of the gap.
+    /// Where a flat face lies on several triangles, or a core of k = 0 reaches through them, the regularisation alone
+    /// tells which of them is nearest to the centre: it stays part of s, and of the gap.
     pub fn scale(&self, body: &Body) -> Scale {
         let Solution { upper, rounding, .. } = self.least.solution;
         // A sum of squares that is 0 but for rounding.
@@ -334,18 +342,19 @@ impl Closest {
         Solution::is_inconclusive(self.duality_gap + self.least.solution.rounding, self.least.solution.upper)
     }
 
-    /// Whether the regularisation may be all that keeps s from being less than 1. The part decides alone, as it does of s: all triangles
-    /// that share it have the same answer.
+    /// Whether the regularisation may be all that keeps s from being less than 1. The part decides alone, as it does of
+    /// s: all triangles that share it have the same answer.
     pub fn may_hide_an_overlap(&self, body: &Body) -> bool {
         let Solution { estimate, lower, upper, rounding, .. } = self.least.solution;
         estimate >= 1.0 && lower - rounding - body.most_surplus(larger(upper, 1.0)) < 1.0
     }
 
-    /// Lower bound of the distance of particle and boundary, from the tangent of s at the point, which lies below s everywhere.
+    /// Lower bound of the distance of particle and boundary, from the tangent of s at the point, which lies below s
+    /// everywhere.
     ///
-    /// In the particle the tangent is at most 1, or what the regularisation makes of that; on the boundary it is at least s but for
-    /// what is in doubt; and it rises by no more than its slope. The point of the boundary nearest to the particle is no farther
-    /// from the centre than this one and the radius of the particle together.
+    /// In the particle the tangent is at most 1, or what the regularisation makes of that; on the boundary it is at
+    /// least s but for what is in doubt; and it rises by no more than its slope. The point of the boundary nearest to
+    /// the particle is no farther from the centre than this one and the radius of the particle together.
     pub fn distance(&self, body: &Body) -> f64 {
         let Solution { estimate, rounding, gradient_norms, .. } = self.least.solution;
         let within = smaller(2.0 * (body.particle.bounding_radius() + self.least.from_centre().norm()), self.extent);
@@ -355,8 +364,8 @@ impl Closest {
         larger(above / (gradient_norms[0] + descent) * (1.0 - MARGIN), 0.0)
     }
 
-    /// Bound on the distance of the point to the minimum: that of its part, or since S rises from the minimum at least as the square of the
-    /// way times the least curvature, or from where it can be at all.
+    /// Bound on the distance of the point to the minimum: that of its part, or since S rises from the minimum at least
+    /// as the square of the way times the least curvature, or from where it can be at all.
     pub fn point_bound(&self, body: &Body) -> f64 {
         // Of the particle without its regularisation.
         let surplus = body.most_surplus(larger(self.least.solution.upper, 1.0));
@@ -390,7 +399,8 @@ mod tests {
         assert_eq!(ending_at(Feature::Interior).chain(ending_at(Feature::Edge(1))).count(), 0);
     }
 
-    /// Whether all parts of a triangle are solved in extended precision depends on the triangle: what it shares with others may not.
+    /// Whether all parts of a triangle are solved in extended precision depends on the triangle: what it shares with
+    /// others may not.
     #[test]
     fn edges_and_vertices_have_the_same_bits_whether_the_triangle_is_solved_precisely_or_not() {
         let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);

@@ -36,12 +36,13 @@ pub struct FlatContact {
     pub flags: Flags,
     /// Quadratics solved.
     pub iterations: u32,
-    /// √S_A at x*, the least on T, with S_A as regularised ([`Settings::flat_regularisation`]). Rejected: a proved lower bound, ≥ 1.
+    /// √S_A at x*, the least on T, with S_A as regularised ([`Settings::flat_regularisation`]). Rejected: a proved
+    /// lower bound, ≥ 1.
     ///
-    /// It depends on the particle, its pose and this boundary alone, and on an edge or a vertex on nothing else of the triangle:
-    /// of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a seam. With k = 0 and a
-    /// flat face on several triangles the regularisation alone tells them apart: at its default to some percent of the size, at 1e-4
-    /// to 1e-6 of it.
+    /// It depends on the particle, its pose and this boundary alone, and on an edge or a vertex on nothing else of the
+    /// triangle: of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a
+    /// seam. With k = 0 and a flat face on several triangles the regularisation alone tells them apart: at its default
+    /// to some percent of the size, at 1e-4 to 1e-6 of it.
     pub s: f64,
     /// |s − s*| ≤ gap: rounding to first order in doubles, as of [`crate::Contact::gap`].
     pub gap: f64,
@@ -68,12 +69,14 @@ equality!(FlatContact: kind, feature, flags, iterations; s, gap, point_bound, ov
 
 /// Contact of A at a pose with a plane, which it may touch from either side.
 ///
-/// Of the settings, `gap_tolerance`, `flat_regularisation` (values below the default count as the default) and `solve_separated`
-/// count. As for a pair, a `gap_tolerance` below 1e-13, or a gap in doubles that is too wide, is answered in extended precision
-/// ([`Flags::EXTENDED`]). Where the slope of S does not tell the normal, it is the plane's, away from the centre of A; where that lies
-/// on the plane to rounding, A counts as in front of it ([`Flags::NORMAL_BY_BOUNDARY`]).
+/// Of the settings, `gap_tolerance`, `flat_regularisation` (values below the default count as the default) and
+/// `solve_separated` count. As for a pair, a `gap_tolerance` below 1e-13, or a gap in doubles that is too wide, is
+/// answered in extended precision ([`Flags::EXTENDED`]). Where the slope of S does not tell the normal, it is the
+/// plane's, away from the centre of A; where that lies on the plane to rounding, A counts as in front of it
+/// ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
-/// `state` is what A and this boundary keep from call to call, as for a pair of particles: read, and updated on success.
+/// `state` is what A and this boundary keep from call to call, as for a pair of particles: read, and updated on
+/// success.
 ///
 /// ```
 /// use potential_particles::{Kind, Particle, Pose, Settings, Wall, contact_with_plane};
@@ -103,7 +106,8 @@ pub fn contact_with_plane(
     call.contact(state, |search| search.on_plane(&plane))
 }
 
-/// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as [`contact_with_plane`].
+/// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as
+/// [`contact_with_plane`].
 ///
 /// # Errors
 /// A setting out of range, or no answer from the solver.
@@ -215,8 +219,8 @@ impl Call<'_> {
         })
     }
 
-    /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that. And whether the gradient vanishes
-    /// to its rounding, so that it is that of the boundary or minus that.
+    /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that. And whether the
+    /// gradient vanishes to its rounding, so that it is that of the boundary or minus that.
     fn normal(&self, body: &Body, found: &Closest) -> (Vector3<f64>, bool) {
         let (least, solution) = (&found.least, &found.least.solution);
         let shift = shift_in_a(least.from_centre().norm(), least.lengths);

@@ -1,15 +1,15 @@
 //! The contact of a particle with a flat boundary of no thickness: a plane, or a triangle of a mesh.
 //!
-//! The boundary T is touched where the scale of the particle is least on it, the paper's closest point (eqs 3, 9) with T in
-//! place of the second particle:
+//! The boundary T is touched where the scale of the particle is least on it, the paper's closest point (eqs 3, 9) with
+//! T in place of the second particle:
 //!
 //! ```text
 //! x* = argmin S(x) over x in T,    s = √S(x*),    contact if s < 1
 //! ```
 //!
-//! A part of T, its plane, an edge or a corner, takes the place of the second particle of a pair: a body with S = 0, on which a point
-//! has two, one or no coordinates ([`crate::pair::boundary_part`]). All else is the solver of pairs, with its bounds and its
-//! extended tier ("Boundaries" in docs/theory.md). Each file uses only those above it:
+//! A part of T, its plane, an edge or a corner, takes the place of the second particle of a pair: a body with S = 0, on
+//! which a point has two, one or no coordinates ([`crate::pair::boundary_part`]). All else is the solver of pairs, with
+//! its bounds and its extended tier ("Boundaries" in docs/theory.md). Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

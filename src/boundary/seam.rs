@@ -1,4 +1,5 @@
-//! Whether the least S on a triangle lies on what it shares with a neighbour, and how it goes on from there into that one.
+//! Whether the least S on a triangle lies on what it shares with a neighbour, and how it goes on from there into that
+//! one.
 
 use super::boundary::{Feature, Triangle};
 use crate::pair::body::Body;
@@ -28,13 +29,14 @@ pub enum Onwards {
     Unknown,
 }
 
-/// Of A at this pose, whether S is least on this edge or vertex of the triangle, and how it goes on from there into a neighbour that shares
-/// it, as [`super::contact_with_triangle`] and the slope of its answer say.
+/// Of A at this pose, whether S is least on this edge or vertex of the triangle, and how it goes on from there into a
+/// neighbour that shares it, as [`super::contact_with_triangle`] and the slope of its answer say.
 ///
-/// `share`: on an edge the place of the least S, from its first vertex to the next one, 0 to 1: a guess, replaced by what was found.
+/// `share`: on an edge the place of the least S, from its first vertex to the next one, 0 to 1: a guess, replaced by
+/// what was found.
 ///
-/// On an edge S is convex, and its curvature at least that of the shadow sphere: a slope that is left bounds the way to the least S, and
-/// that way, times the curvature, what the slopes into both triangles are off by.
+/// On an edge S is convex, and its curvature at least that of the shadow sphere: a slope that is left bounds the way to
+/// the least S, and that way, times the curvature, what the slopes into both triangles are off by.
 pub fn onwards_from_seam(
     a: &Particle,
     pose: &Pose,
@@ -64,7 +66,8 @@ pub fn onwards_from_seam(
     };
     let here = potential::turned(a, body.sphere_weight(), |n| n, &x, 0.0, |_, excess| excess > 0.0);
     let steep = here.gradient.norm();
-    // As far as the exact point is off, no plane comes on or goes off, and the slopes change by no more than the quadratic bends.
+    // As far as the exact point is off, no plane comes on or goes off, and the slopes change by no more than the
+    // quadratic bends.
     let is_one_quadratic = doubt * a.bounds.longest_normal < here.clear || doubt == 0.0;
     let off = doubt * here.hessian.diagonal().sum();
     let is_known = is_one_quadratic && off <= DOUBT * CLEAR * steep && steep * a.bounding_radius() > CLEAR;
@@ -132,7 +135,8 @@ mod tests {
     use crate::contact::contact::Kind;
     use crate::pair::scattered;
 
-    /// Of two triangles with a common edge, from the answers of both alone: the sides of the seam are told apart as their least s are.
+    /// Of two triangles with a common edge, from the answers of both alone: the sides of the seam are told apart as
+    /// their least s are.
     #[test]
     fn the_way_of_s_over_a_seam_is_that_of_the_least_s_on_both_sides() {
         let cube = Particle::cube(0.4, 0.1, 0.05, 0.9);

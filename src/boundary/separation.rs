@@ -8,9 +8,10 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::Vector3;
 
-/// By the bounding ball, or by the plane of the boundary and the corners of the particle's bounding polyhedron, with the larger
-/// distance of both; else by a face of the particle. A plane has this unit normal and is given by a point of it, a triangle by its vertices.
-/// All of it is seen from the centre of the particle in world axes: no frame is needed yet.
+/// By the bounding ball, or by the plane of the boundary and the corners of the particle's bounding polyhedron, with
+/// the larger distance of both; else by a face of the particle. A plane has this unit normal and is given by a point of
+/// it, a triangle by its vertices. All of it is seen from the centre of the particle in world axes: no frame is needed
+/// yet.
 pub(super) fn proof_of_separation(
     particle: &Particle,
     pose: &Pose,
@@ -39,8 +40,8 @@ pub(super) fn proof_of_separation(
         .map(|distance| Apart::new(Flags::BY_FACE, distance))
 }
 
-/// The point of a triangle that is nearest to a centre, seen from there, where `foot` is that of its plane. Where the squares of the edges
-/// leave the range of doubles, the foot itself, which is no farther off.
+/// The point of a triangle that is nearest to a centre, seen from there, where `foot` is that of its plane. Where the
+/// squares of the edges leave the range of doubles, the foot itself, which is no farther off.
 fn nearest(
     vertices: &[Vector3<f64>; 3],
     centre: &Vector3<f64>,

@@ -1,9 +1,9 @@
 //! How far the dual value after a step may lie above a lower bound of the optimum.
 //!
-//! With depths p ≥ 0 as multipliers, ⟨t⟩² ≥ 2pt − p² makes of S_A and S_B functions that are linear in the planes; their weighted
-//! sum has the curvature of the spheres, so that it falls below its value at a point by at most half the square of the slope there
-//! over that curvature. The slope is what the solution has left of a·∇S_A + b·∇S_B, the rounding of that sum, and what planes
-//! contribute whose depth is negative by rounding and is taken as 0.
+//! With depths p ≥ 0 as multipliers, ⟨t⟩² ≥ 2pt − p² makes of S_A and S_B functions that are linear in the planes;
+//! their weighted sum has the curvature of the spheres, so that it falls below its value at a point by at most half the
+//! square of the slope there over that curvature. The slope is what the solution has left of a·∇S_A + b·∇S_B, the
+//! rounding of that sum, and what planes contribute whose depth is negative by rounding and is taken as 0.
 
 use crate::bounds::rounding;
 use crate::linalg::number::smaller;
@@ -18,14 +18,14 @@ pub(crate) struct DualBound {
     pub slope: f64,
     /// How far the dual value may lie above a lower bound.
     pub height: f64,
-    /// Whether each active plane pushes by more than the slope that is in doubt, and none but they can be on: then the active set
-    /// is that of the optimum.
+    /// Whether each active plane pushes by more than the slope that is in doubt, and none but they can be on: then the
+    /// active set is that of the optimum.
     pub certain: bool,
 }
 
 impl DualBound {
-    /// After a step to where ∇S_A and ∇S_B, weighted, have the length `force`. The optimum lies in {S ≤ `upper`}: where the spheres
-    /// are all but flat, the slope over the way to its far end is less than what their curvature allows.
+    /// After a step to where ∇S_A and ∇S_B, weighted, have the length `force`. The optimum lies in {S ≤ `upper`}: where
+    /// the spheres are all but flat, the slope over the way to its far end is less than what their curvature allows.
     #[inline(always)]
     pub fn after(
         model: &LocalModel,

@@ -44,8 +44,8 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
     }
 }
 
-/// The dual value of the local model at its own optimal λ, sought from the given one, less all that is in doubt about it. Planes that
-/// only seem to be on are dropped one by one, as in the solver.
+/// The dual value of the local model at its own optimal λ, sought from the given one, less all that is in doubt about
+/// it. Planes that only seem to be on are dropped one by one, as in the solver.
 fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -> Option<f64> {
     let weights = problem.weights(start.lambda);
     let mut model = LocalModel::at(bodies, start, problem, Axes::Graded);
@@ -66,8 +66,8 @@ fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -
     }
 }
 
-/// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong, and
-/// with it the price of what is missing. s is convex on that way.
+/// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong,
+/// and with it the price of what is missing. s is convex on that way.
 fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], problem: Problem) -> f64 {
     let Some((held, free)) = problem.held() else { return values[0].max(values[1]) };
     let (s, centre) = (values[held].sqrt(), bodies[held].centre());
@@ -87,7 +87,8 @@ mod tests {
     use crate::particle::particle::Particle;
     use crate::pose::Pose;
 
-    /// Balls of radii 1 and 2 at a distance of 2.4: s = 0.8 midway, 0.4 on B and 0.7 on A, whatever point and λ are given.
+    /// Balls of radii 1 and 2 at a distance of 2.4: s = 0.8 midway, 0.4 on B and 0.7 on A, whatever point and λ are
+    /// given.
     #[test]
     fn the_bounds_of_any_point_hold_the_optimum() {
         let balls = [1.0, 2.0].map(|radius| Particle::sphere(radius).unwrap());

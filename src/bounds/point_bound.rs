@@ -8,8 +8,9 @@ use crate::model::problem::{Problem, TURN};
 use crate::pair::body::Body;
 use nalgebra::Vector3;
 
-/// Factor on the move by the regularisation of first order. Where both S are 0 without it, as of a ball whose centre lies in a core, the point goes with its root: first order
-/// tells half of a small move, and a third of one of a third of the way to the centre of the regularised body; of longer ones nothing is told.
+/// Factor on the move by the regularisation of first order. Where both S are 0 without it, as of a ball whose centre
+/// lies in a core, the point goes with its root: first order tells half of a small move, and a third of one of a third
+/// of the way to the centre of the regularised body; of longer ones nothing is told.
 const OF_ROOT: f64 = 3.0;
 const LONGEST: f64 = 0.5;
 
@@ -18,12 +19,13 @@ const SIDES: f64 = 8.0;
 
 /// Bound on the distance from the point of a solution to the optimum, length.
 ///
-/// Where the active set is certain, the optimum is that of known quadratics and only their data is in doubt: each plane's distance
-/// by its rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the optimum to each is
-/// a linear problem that is solved already, and the lengths are added: an estimate of first order, with bounds on all data.
-/// Elsewhere strong convexity bounds it: ½·curvature·(½·distance)² ≤ upper − lower.
+/// Where the active set is certain, the optimum is that of known quadratics and only their data is in doubt: each
+/// plane's distance by its rounding, each body's force a·∇S_A by the rounding of its direction. The answer of the
+/// optimum to each is a linear problem that is solved already, and the lengths are added: an estimate of first order,
+/// with bounds on all data. Elsewhere strong convexity bounds it: ½·curvature·(½·distance)² ≤ upper − lower.
 ///
-/// Of particles that are regularised the optimum is that without the regularisation, the nearest one where it is no single point.
+/// Of particles that are regularised the optimum is that without the regularisation, the nearest one where it is no
+/// single point.
 #[inline(always)]
 pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
     let bound = of_solved(solution, model, bodies, problem);
@@ -56,12 +58,13 @@ fn of_solved(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], proble
         sides[i] =
             SIDES * f64::EPSILON * q.expansion + solution.sums[i] + bodies[i].sphere_slope(solution.values[i]) * shift;
     }
-    // What is left of the mismatch, and the rounding of both sides. A shift of the sphere's centre enters S with its full slope
-    // 2m|y|.
+    // What is left of the mismatch, and the rounding of both sides. A shift of the sphere's centre enters S with its
+    // full slope 2m|y|.
     let left = problem.mismatch(solution.values[0], solution.values[1]);
     let (side_a, side_b) = problem.changes(sides[0], sides[1]);
     sum += sensitivity.to_value(left + side_a + side_b + SIDES * f64::EPSILON * larger(solution.upper, 1.0));
-    // Where both gradients vanish, the sensitivity has no digits; and where a plane may go off, the quadratics are others.
+    // Where both gradients vanish, the sensitivity has no digits; and where a plane may go off, the quadratics are
+    // others.
     let longest_normals = bodies.map(|body| body.particle.bounds.longest_normal);
     let holds = sum.is_finite() && sensitivity.holds_within(sum, longest_normals);
     if holds { sum + carried } else { by_convexity(solution, bodies, problem) + carried }
@@ -88,7 +91,8 @@ fn of_given(bound: f64, solution: &Solution, model: &LocalModel, bodies: [&Body;
     if holds { smaller(bound + moved, farthest) } else { farthest }
 }
 
-/// What the regularisation adds to the conditions of the optimum: to the slope, to its curvature in all directions, and to the mismatch.
+/// What the regularisation adds to the conditions of the optimum: to the slope, to its curvature in all directions, and
+/// to the mismatch.
 pub(crate) struct Added {
     slope: Vector3<f64>,
     curvature: f64,
@@ -118,8 +122,9 @@ impl Added {
 
     /// How far it moves the optimum, which is known to `bound`.
     ///
-    /// With a share of the curvature its own, the move without that curvature is as the geometric series of the share. Along flat faces it is all
-    /// of the curvature, and the slope is 0 where the point that it selects is an optimum without it, too.
+    /// With a share of the curvature its own, the move without that curvature is as the geometric series of the share.
+    /// Along flat faces it is all of the curvature, and the slope is 0 where the point that it selects is an optimum
+    /// without it, too.
     pub fn moves(&self, sensitivity: &Sensitivity, bound: f64) -> f64 {
         let first = sensitivity.to_slope(&self.slope);
         let (by_slope, by_value) = (first.norm(), sensitivity.to_value(self.value));
@@ -134,8 +139,9 @@ impl Added {
     }
 }
 
-/// Bound on the distance to an optimum without regularisation, from where that can be: at the level of what was found both in the ball of each shadow
-/// sphere and within its reach, and, by the curvature of the spheres, no farther than the gap allows.
+/// Bound on the distance to an optimum without regularisation, from where that can be: at the level of what was found
+/// both in the ball of each shadow sphere and within its reach, and, by the curvature of the spheres, no farther than
+/// the gap allows.
 pub(crate) fn farthest(solution: &Solution, bodies: [&Body; 2], problem: Problem) -> f64 {
     let upper = larger(solution.upper, 0.0) + solution.rounding;
     let levels = match problem {
@@ -159,14 +165,15 @@ pub(crate) fn farthest(solution: &Solution, bodies: [&Body; 2], problem: Problem
 
 /// By strong convexity: what the bounds of the value leave.
 ///
-/// The weighted sum has its minimum at some z, where it is at least `lower`; the point of the solution and the optimum both lie
-/// where it is at most `upper`, so that either is within √(2·open/curvature) of z.
+/// The weighted sum has its minimum at some z, where it is at least `lower`; the point of the solution and the optimum
+/// both lie where it is at most `upper`, so that either is within √(2·open/curvature) of z.
 pub(crate) fn by_convexity(solution: &Solution, bodies: [&Body; 2], problem: Problem) -> f64 {
     let (weights, soft) = (problem.weights(solution.lambda), local_model::softest(bodies));
     farthest_apart(solution.duality_gap + 2.0 * solution.rounding, weights.0 * soft.0 + weights.1 * soft.1)
 }
 
-/// Bound on the distance of two points at which a function of this curvature at least is no more than so much above its minimum.
+/// Bound on the distance of two points at which a function of this curvature at least is no more than so much above its
+/// minimum.
 pub(crate) fn farthest_apart(above: f64, curvature: f64) -> f64 {
     2.0 * (2.0 * above / curvature).sqrt()
 }
@@ -179,8 +186,8 @@ mod tests {
     use crate::pose::Pose;
     use nalgebra::Vector3;
 
-    /// Two balls of radius 1: φ = ½|x − c|² + ½|x|² has its minimum half way. A point as far to one side of it as the optimum may lie
-    /// to the other is twice as far from that as from the minimum.
+    /// Two balls of radius 1: φ = ½|x − c|² + ½|x|² has its minimum half way. A point as far to one side of it as the
+    /// optimum may lie to the other is twice as far from that as from the minimum.
     #[test]
     fn points_on_either_side_of_the_minimum_are_within_the_bound_by_convexity() {
         let ball = Particle::sphere(1.0).unwrap();

@@ -1,8 +1,8 @@
 //! What the rounding of S_A and S_B does to the optimum.
 //!
-//! The distances to the planes carry an error proportional to the lengths they are made from; times the pull
-//! 2(1−k)/r² Σ⟨n_i·x − d_i⟩ of the planes it is that of S. To first order it moves the optimum by its weighted sum, as long as
-//! it leaves the weights where they are.
+//! The distances to the planes carry an error proportional to the lengths they are made from; times the pull 2(1−k)/r²
+//! Σ⟨n_i·x − d_i⟩ of the planes it is that of S. To first order it moves the optimum by its weighted sum, as long as it
+//! leaves the weights where they are.
 
 use crate::linalg::number::{larger, smaller};
 use crate::model::dual_path::Optimum;
@@ -73,8 +73,9 @@ impl Rounding {
     }
 }
 
-/// Second-order terms of S_A and S_B for the displacement induced by `rounding`: against the gradient of the side that is too high, of
-/// length rounding over slope. Inactive planes that may switch within that length and their blur count as well.
+/// Second-order terms of S_A and S_B for the displacement induced by `rounding`: against the gradient of the side that
+/// is too high, of length rounding over slope. Inactive planes that may switch within that length and their blur count
+/// as well.
 #[inline(always)]
 fn by_curvature(
     bodies: [&Body; 2],

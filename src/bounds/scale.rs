@@ -43,8 +43,8 @@ impl Scale {
         Self::between(square, solution.lower - most - solution.rounding, high)
     }
 
-    /// From an estimate of S that is not negative and bounds of it. The gap is NaN where `high` is: `larger` gives its second argument where
-    /// either is NaN.
+    /// From an estimate of S that is not negative and bounds of it. The gap is NaN where `high` is: `larger` gives its
+    /// second argument where either is NaN.
     #[inline(always)]
     pub fn between(square: f64, low: f64, high: f64) -> Self {
         let low = smaller(larger(low, 0.0), square);
@@ -53,8 +53,8 @@ impl Scale {
         Self { s, gap: larger(s - low, high - s) + OF_SCALE * s + UNDERFLOW, low, high: high * (1.0 + OF_SCALE) }
     }
 
-    /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`]. A regularisation that is
-    /// raised was asked for with the gap that it leaves, which may be any number.
+    /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`]. A
+    /// regularisation that is raised was asked for with the gap that it leaves, which may be any number.
     pub fn is_undecided(&self, raised: bool) -> bool {
         let most = if raised { f64::MAX } else { INCONCLUSIVE };
         // What is no number is no answer either.

@@ -36,9 +36,8 @@ pub(crate) struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Of the optimum of two quadratics with least curvatures `soft` of A and B, whose planes push by at least so much, of points with so
-    /// many coordinates; `None` where
-    /// both sides do not part with λ.
+    /// Of the optimum of two quadratics with least curvatures `soft` of A and B, whose planes push by at least so much,
+    /// of points with so many coordinates; `None` where both sides do not part with λ.
     #[inline(always)]
     pub fn of(
         optimum: &Optimum,
@@ -110,10 +109,10 @@ impl Sensitivity {
 
     /// Bound on the moves, summed, when each plane of A (0) or B (1) moves by one unit of length.
     ///
-    /// A plane with depth p turns the slope by 2wn and raises S by 2wp, and the optimum answers with
-    /// 2w·(a·M n + along·α·p/rate). By Cauchy's inequality Σ|M n| ≤ √(m·tr(M N M)), and Σp ≤ √(m·S/w), so that no plane is
-    /// looked at again. H·along = −w makes M H M = −M, of which the planes' share is what the spheres leave: one trace
-    /// for all planes of both.
+    /// A plane with depth p turns the slope by 2wn and raises S by 2wp, and the optimum answers with 2w·(a·M n +
+    /// along·α·p/rate). By Cauchy's inequality Σ|M n| ≤ √(m·tr(M N M)), and Σp ≤ √(m·S/w), so that no plane is looked
+    /// at again. H·along = −w makes M H M = −M, of which the planes' share is what the spheres leave: one trace for all
+    /// planes of both.
     pub fn to_planes(&self, body: usize, count: u32, problem: Problem, lambda: f64, plane_weight: f64) -> f64 {
         if plane_weight == 0.0 || count == 0 {
             return 0.0;

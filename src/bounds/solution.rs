@@ -158,11 +158,12 @@ impl Solution {
         self.lower - self.rounding - flat > 1.0
     }
 
-    /// Least effect of rounding on the optimum: the weighted change of S when each body moves by the rounding of a length.
+    /// Least effect of rounding on the optimum: the weighted change of S when each body moves by the rounding of a
+    /// length.
     #[inline(always)]
     pub fn least_rounding(&self, bodies: [&Body; 2], model: &LocalModel, problem: Problem) -> f64 {
-        // How far rounding moves the planes of the longest normal. At most twice the shift, since their offsets are rounded less
-        // than the point; without planes 0/0, which is not smaller.
+        // How far rounding moves the planes of the longest normal. At most twice the shift, since their offsets are
+        // rounded less than the point; without planes 0/0, which is not smaller.
         let place = |i: usize| {
             let LocalPoint { blur, shift, .. } = model.points[i];
             smaller(blur / bodies[i].particle.bounds.longest_normal, 2.0 * shift)

@@ -59,8 +59,8 @@ fn body<'a>(particle: &'a pp_particle, pose: &pp_pose) -> Result<Body<'a>, pp_st
     Ok((&particle.0, pose_from(pose)?))
 }
 
-/// pp_contact_detect_batch of particles P at poses Q with contacts C: `body` makes a body of a particle and its pose, `contact`
-/// finds the contact of two and writes it.
+/// pp_contact_detect_batch of particles P at poses Q with contacts C: `body` makes a body of a particle and its pose,
+/// `contact` finds the contact of two and writes it.
 ///
 /// # Safety
 /// Pointers and counts are as pp_contact_detect_batch asks for.

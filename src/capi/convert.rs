@@ -30,7 +30,8 @@ const _: () = assert!(
 
 #[inline(always)]
 pub(super) fn state_of(state: &mut pp_pair_state) -> &mut PairState {
-    // SAFETY: it holds as many bytes, all of them numbers of which any value is one; the remembered solution comes first in both.
+    // SAFETY: it holds as many bytes, all of them numbers of which any value is one; the remembered solution comes
+    // first in both.
     unsafe { &mut *std::ptr::from_mut(state).cast::<PairState>() }
 }
 
@@ -62,8 +63,8 @@ pub(super) fn settings_to(settings: &Settings) -> pp_settings {
 
 /// The defaults for `None`; ranges are checked by whoever uses the settings.
 ///
-/// Always inlined: given back through memory byte by byte and read again as words, they cost a cheap rejection a tenth of its
-/// time.
+/// Always inlined: given back through memory byte by byte and read again as words, they cost a cheap rejection a tenth
+/// of its time.
 #[inline(always)]
 pub(super) fn settings_from(settings: Option<&pp_settings>) -> Result<Settings, pp_status> {
     let Some(settings) = settings else { return Ok(Settings::default()) };

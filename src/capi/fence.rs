@@ -33,12 +33,12 @@ pub(super) fn fenced(body: impl FnOnce() -> Result<(), pp_status>) -> pp_status 
     }
 }
 
-/// Lets a panic inside a fence print nothing: the caller learns of it by its status, and a library does not write to the
-/// caller's terminal.
+/// Lets a panic inside a fence print nothing: the caller learns of it by its status, and a library does not write to
+/// the caller's terminal.
 ///
-/// Only the panic hook can do that, since it runs before any unwinding is caught. It is of the Rust runtime in this shared
-/// library, which no other library shares; in a Rust program that uses this crate it is the program's. So whatever hook there
-/// was still gets every panic from outside the fences.
+/// Only the panic hook can do that, since it runs before any unwinding is caught. It is of the Rust runtime in this
+/// shared library, which no other library shares; in a Rust program that uses this crate it is the program's. So
+/// whatever hook there was still gets every panic from outside the fences.
 #[inline]
 fn silence_panics_inside() {
     static DONE: Once = Once::new();

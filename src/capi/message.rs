@@ -10,9 +10,8 @@ pub(super) trait Refusal: Display {
     fn status(&self) -> pp_status;
 }
 
-/// Runs `make`. Why it failed is written to the message: the error's own sentence, `null` for a pointer that is NULL, else that
-/// of the status.
-/// Pointers: message is NULL or valid for writing size bytes.
+/// Runs `make`. Why it failed is written to the message: the error's own sentence, `null` for a pointer that is NULL,
+/// else that of the status. Pointers: message is NULL or valid for writing size bytes.
 pub(super) unsafe fn explained<E: Refusal>(
     make: impl FnOnce() -> Result<Result<(), E>, pp_status>,
     null: &str,

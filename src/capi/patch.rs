@@ -270,8 +270,8 @@ unsafe fn answer(
     Ok(())
 }
 
-/// The patch that `run` finds with the scratch of this thread, in space or in the plane: its points are handed over, their number is written, and
-/// one that has more points than there is room for is refused.
+/// The patch that `run` finds with the scratch of this thread, in space or in the plane: its points are handed over,
+/// their number is written, and one that has more points than there is room for is refused.
 ///
 /// # Safety
 /// points is NULL or valid for writing `capacity` points, `count` NULL or valid for writing.

@@ -1,4 +1,5 @@
-//! Sharp convex bodies over the C boundary: from half-spaces, points or a surface to faces, corners and triangles, and from there to a particle.
+//! Sharp convex bodies over the C boundary: from half-spaces, points or a surface to faces, corners and triangles, and
+//! from there to a particle.
 
 use super::builder::{create_shape, pp_built};
 use super::convert::planes_from;
@@ -144,7 +145,8 @@ pub unsafe extern "C" fn pp_polyhedron_free(polyhedron: *mut pp_polyhedron) {
     }
 }
 
-/// Planes of the faces: rows of a, b, c, h, unit normals; half-spaces in the order given, else largest face first.
+/// Planes of the faces: rows of a, b, c, h, unit normals; half-spaces in the order given, other faces by
+/// falling area.
 ///
 /// planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
 /// faces, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.

@@ -19,14 +19,15 @@ pub(crate) const CHUNK: usize = 64;
 /// More threads than this are not started, whatever the caller asks.
 pub(crate) const MOST_THREADS: usize = 256;
 
-/// Contacts of many pairs of bodies: body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`, first A,
-/// then B.
+/// Contacts of many pairs of bodies: body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`,
+/// first A, then B.
 ///
-/// The answers come in the order of the pairs, and each is, to the last bit, what [`crate::detect()`] gives for that pair alone,
-/// whatever the number of threads: 1 is the calling thread alone (as is 0), n starts n − 1 more and ends them again before
-/// the call returns. `states` holds one state for each pair, or nothing.
+/// The answers come in the order of the pairs, and each is, to the last bit, what [`crate::detect()`] gives for that
+/// pair alone, whatever the number of threads: 1 is the calling thread alone (as is 0), n starts n − 1 more and ends
+/// them again before the call returns. `states` holds one state for each pair, or nothing.
 ///
-/// A pair that names a body that is not there has [`DetectError::NoSuchBody`] for an answer, and the others are answered.
+/// A pair that names a body that is not there has [`DetectError::NoSuchBody`] for an answer, and the others are
+/// answered.
 ///
 /// ```
 /// use potential_particles::{Kind, PairState, Particle, Pose, Settings, detect_batch};
@@ -60,8 +61,9 @@ pub fn detect_batch(
     Ok(answers)
 }
 
-/// [`detect_batch`] into answers of the caller's own form, one for each pair: `write` gets the number of a pair, the place of its answer and the
-/// answer, which is not copied on the way. It is called once for each pair, by several threads.
+/// [`detect_batch`] into answers of the caller's own form, one for each pair: `write` gets the number of a pair, the
+/// place of its answer and the answer, which is not copied on the way. It is called once for each pair, by several
+/// threads.
 ///
 /// ```
 /// use potential_particles::{Particle, Pose, Settings, detect_batch_into};
@@ -114,8 +116,8 @@ pub(crate) fn refuse<C>(_: usize, answer: &mut Result<C, DetectError>, error: De
     *answer = Err(error);
 }
 
-/// [`detect_batch`] with settings that were checked, in space or in the plane: `detect` finds the answer T of the pair of this
-/// number, particles P at poses Q, with its state, if that is kept, and `refuse` writes an error in its place.
+/// [`detect_batch`] with settings that were checked, in space or in the plane: `detect` finds the answer T of the pair
+/// of this number, particles P at poses Q, with its state, if that is kept, and `refuse` writes an error in its place.
 pub(crate) fn detect_batch_by<P: Sync, Q: Sync, T: Send>(
     (detect, refuse): (
         impl Fn(usize, Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut T) + Sync,
@@ -161,8 +163,8 @@ pub(crate) fn optional_chunks<T>(all: &mut [T]) -> impl Iterator<Item = &mut [T]
 
 /// Has each of `count` chunks worked on once, by so many threads, of which the calling one is the first.
 ///
-/// Which thread has which chunk is left to time, so that pairs of unlike cost do not hold up the others; as no chunk depends
-/// on another, no result depends on it. A thread that the system refuses to start is done without.
+/// Which thread has which chunk is left to time, so that pairs of unlike cost do not hold up the others; as no chunk
+/// depends on another, no result depends on it. A thread that the system refuses to start is done without.
 pub(crate) fn in_parallel<T: Send>(
     threads: usize,
     count: usize,
@@ -187,7 +189,8 @@ pub(crate) fn in_parallel<T: Send>(
         let start = |_| thread::Builder::new().spawn_scoped(scope, take_turns).ok();
         let helpers: Vec<_> = (1..threads).filter_map(start).collect();
         take_turns();
-        // Joined one by one, which the scope alone would not do: so ThreadSanitizer sees in a caller's program that they ended.
+        // Joined one by one, which the scope alone would not do: so ThreadSanitizer sees in a caller's program that
+        // they ended.
         for helper in helpers {
             helper.join().unwrap_or_else(|panic| resume_unwind(panic));
         }

@@ -1,10 +1,10 @@
 //! The last contact of a pair carried on to new poses, without a solution from the planes.
 //!
-//! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how far a
-//! point may move there before a plane switches. While the contact point stays within, midway at new poses is the problem of
-//! the same two quadratics: (1−u)∇S_A + u∇S_B = 0 and S_A = S_B (paper eq. 4). Newton's method from the last point solves
-//! it, with one 3×3 inverse for all its rounds; what a further round would change, from the slope and the mismatch that
-//! are left, bounds the error (docs/theory.md, "Carrying a contact on").
+//! At a contact that is solved, S_A and S_B are known as quadratics, each in the frame of its own body, and so is how
+//! far a point may move there before a plane switches. While the contact point stays within, midway at new poses is the
+//! problem of the same two quadratics: (1−u)∇S_A + u∇S_B = 0 and S_A = S_B (paper eq. 4). Newton's method from the last
+//! point solves it, with one 3×3 inverse for all its rounds; what a further round would change, from the slope and the
+//! mismatch that are left, bounds the error (docs/theory.md, "Carrying a contact on").
 
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
@@ -38,34 +38,40 @@ const MOST_ROUNDS: u32 = 8;
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
 const CONVERGING: f64 = 0.25;
 
-/// The change that is left is at most this share of the last. It is predicted from two changes and may be ten times as large: ten times this share is
-/// the half that the theorem asks for.
+/// The change that is left is at most this share of the last. It is predicted from two changes and may be ten times as
+/// large: ten times this share is the half that the theorem asks for.
 const TOLD: f64 = 0.05;
 
-/// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to ten times too small.
+/// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to
+/// ten times too small.
 const ENOUGH: f64 = 0.02;
 
-/// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two (docs/theory.md).
+/// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two
+/// (docs/theory.md).
 const MOST_CHANGE: f64 = 0.5;
 
-/// Ratio of curvatures up to which the inverse is taken by minors: it loses as many digits, and what is left is measured at the end.
+/// Ratio of curvatures up to which the inverse is taken by minors: it loses as many digits, and what is left is
+/// measured at the end.
 const MOST_STIFF: f64 = 1e9;
 
-/// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a contact point has to be
-/// known to.
+/// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a
+/// contact point has to be known to.
 const MOST_MOVED: f64 = 1e-10;
 
-/// The bound of a carried point is at least so many times that of the solved one: once for the data of the quadratics, once for the new place.
+/// The bound of a carried point is at least so many times that of the solved one: once for the data of the quadratics,
+/// once for the new place.
 const INHERITED: f64 = 2.0;
 
-/// Share of its reach at which a point is followed: bounds have grown 42 times there, and would grow without limit towards 1.
+/// Share of its reach at which a point is followed: bounds have grown 42 times there, and would grow without limit
+/// towards 1.
 const MOST_USED: f64 = 0.75;
 
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).
 const SLOPE_ROUNDING: f64 = 16.0 * f64::EPSILON;
 
 impl KnownPiece {
-    /// Of the potential of a body as it is, in its own frame, from the quadratic of the model, less what the regularisation adds to it.
+    /// Of the potential of a body as it is, in its own frame, from the quadratic of the model, less what the
+    /// regularisation adds to it.
     fn of(model: &LocalModel, body: &Body, i: usize) -> Self {
         let q = if i == 0 { &model.q_a } else { &model.q_b };
         let point = &model.points[i];
@@ -101,13 +107,15 @@ impl KnownPiece {
 
 /// The equations of midway about a point x and weight u, for a way v and a change δ of the weight.
 ///
-/// With slope σ, d = ∇S_B − ∇S_A and E = H_B − H_A they are H v + d·δ = −σ − δ·E v and d·v = S_A − S_B − ½ v·E v, exactly.
+/// With slope σ, d = ∇S_B − ∇S_A and E = H_B − H_A they are H v + d·δ = −σ − δ·E v and d·v = S_A − S_B − ½ v·E v,
+/// exactly.
 struct Equations {
     slope: Vector3<f64>,
     mismatch: f64,
     apart: Vector3<f64>,
     bend: Symmetric,
-    /// H⁻¹ times a unit: the adjugate, whose unit is the determinant of H, or the inverse itself. No solution waits for that division.
+    /// H⁻¹ times a unit: the adjugate, whose unit is the determinant of H, or the inverse itself. No solution waits for
+    /// that division.
     inverse: Symmetric,
     unit: f64,
     per_unit: f64,
@@ -242,8 +250,9 @@ fn precision_of(settings: &Settings) -> [f64; 2] {
     [settings.gap_tolerance, settings.flat_regularisation]
 }
 
-/// Bound on how far the regularisation, which is left off from here on, has moved the solved point: it adds a slope to the balance
-/// of forces and a value to either side. Infinite where that is not known, or where it was raised to move the point.
+/// Bound on how far the regularisation, which is left off from here on, has moved the solved point: it adds a slope to
+/// the balance of forces and a value to either side. Infinite where that is not known, or where it was raised to move
+/// the point.
 fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &Settings) -> f64 {
     if bodies.iter().all(|body| body.is_plain()) {
         return 0.0;
@@ -258,8 +267,8 @@ fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &S
 }
 
 impl LastContact {
-    /// Of a pair that was solved in doubles, as an overlap or surely apart; empty where its quadratics do not say enough, or where no contact that is
-    /// carried on could be known as well as the settings ask for.
+    /// Of a pair that was solved in doubles, as an overlap or surely apart; empty where its quadratics do not say
+    /// enough, or where no contact that is carried on could be known as well as the settings ask for.
     pub fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
         let (pair, bodies, settings) = (call.pair, call.bodies(), call.settings);
         if !(model.in_solver_axes() && solution.linear) {
@@ -321,7 +330,8 @@ impl LastContact {
         Some(Optimum { x, u, here, left, rounds: number })
     }
 
-    /// The optimum at new poses, known to within `room`, or, where its point is followed out of the reach of the pieces, to within `followed`.
+    /// The optimum at new poses, known to within `room`, or, where its point is followed out of the reach of the
+    /// pieces, to within `followed`.
     #[inline(always)]
     fn moved(&mut self, pair: &Pair, last: Remembered, room: f64, followed: f64) -> Option<Moved> {
         let mut pieces = [self.pieces[0].seen_from_b(pair), self.pieces[1]];
@@ -346,7 +356,8 @@ impl LastContact {
         self.square > 1.0
     }
 
-    /// s there, with its bound, and by how much bounds of the solved contact have grown; `None` where its weight is none.
+    /// s there, with its bound, and by how much bounds of the solved contact have grown; `None` where its weight is
+    /// none.
     #[inline(always)]
     fn scale(&self, optimum: &Optimum, within: &[Within; 2]) -> Option<(Scale, f64)> {
         let s = optimum.square().sqrt();

@@ -54,7 +54,8 @@ pub fn detect(
     detect_into((a, pose_a), (b, pose_b), settings, state, &mut place).map(|contact| *contact)
 }
 
-/// [`detect()`] into a place of the caller's, which is written where there is an answer: reuse, reject, solve, describe.
+/// [`detect()`] into a place of the caller's, which is written where there is an answer: reuse, reject, solve,
+/// describe.
 ///
 /// A contact is large, and most pairs of a scene are rejected, where copying it would take longer than finding it.
 #[inline(always)]
@@ -155,7 +156,8 @@ fn solved(
     let mut call = Call::new(pair, settings);
     // Unpacked again: a copy through memory would stall the proofs of separation.
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
-    // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are closer than planes can tell.
+    // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are
+    // closer than planes can tell.
     let last = last.filter(|last| !last.balanced || settings.solve_separated || !call.is_sharp());
     let start = match last {
         Some(last) => {
@@ -218,7 +220,8 @@ fn solved(
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
     let local = match &points {
         Some(points) => {
-            // By rounding, midway and closest may lie on different sides of 1. Where midway does not tell, the scales that are answered do.
+            // By rounding, midway and closest may lie on different sides of 1. Where midway does not tell, the scales
+            // that are answered do.
             remembered.overlapping = if scale.tells_the_side() { overlapping } else { closest::is_overlap(points) };
             remembered = closest::seen_from(remembered, values, points);
             call.flag_free(points);

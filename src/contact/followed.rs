@@ -1,5 +1,5 @@
-//! A contact that is carried on and whose point has left the reach of its quadratics: they are set up anew about the point where the planes that
-//! are active are still the same (docs/theory.md, "Carrying a contact on").
+//! A contact that is carried on and whose point has left the reach of its quadratics: they are set up anew about the
+//! point where the planes that are active are still the same (docs/theory.md, "Carrying a contact on").
 //!
 //! A point on a face may go far along its edge, whose plane is never far from switching.
 
@@ -14,20 +14,21 @@ use std::cell::Cell;
 /// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
 pub(super) const MORE_ROUNDING: f64 = 4.0;
 
-/// How often the pieces are set up anew about a point that goes on, before it is solved from the planes again: how the optimum answers to changes
-/// of its data is known from there.
+/// How often the pieces are set up anew about a point that goes on, before it is solved from the planes again: how the
+/// optimum answers to changes of its data is known from there.
 const MOST_FOLLOWS: f64 = 30.0;
 
 /// How many times as large the rounding of S may be there as where it was solved.
 const MOST_GROWTH: f64 = 8.0;
 
-/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the tolerance: near the
-/// rounding of a solved one, so that runs which solve it anew, as on several ranks, stay as near as the regularisation lets them.
+/// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the
+/// tolerance: near the rounding of a solved one, so that runs which solve it anew, as on several ranks, stay as near as
+/// the regularisation lets them.
 pub(super) const MOST_OPEN: f64 = 1e-13;
 
 impl KnownPiece {
-    /// The same about a point x out of reach, frame of B, from the planes there, with the bound on the rounding of S; `None` where a plane has
-    /// switched on the way, or may have. `self` is in the frame of its body.
+    /// The same about a point x out of reach, frame of B, from the planes there, with the bound on the rounding of S;
+    /// `None` where a plane has switched on the way, or may have. `self` is in the frame of its body.
     #[inline(always)]
     fn about(&self, body: &Body, x: &Vector3<f64>) -> Option<(Self, f64)> {
         let (particle, point) = (body.particle, body.locate(x));
@@ -49,8 +50,8 @@ impl KnownPiece {
 }
 
 impl LastContact {
-    /// Sets up the pieces about where the point x is now, frame of B, at this S, by a look at the planes that may have switched since it has left
-    /// one of them. `None` where one has, or where it was done too often.
+    /// Sets up the pieces about where the point x is now, frame of B, at this S, by a look at the planes that may have
+    /// switched since it has left one of them. `None` where one has, or where it was done too often.
     #[inline(never)]
     pub(super) fn follow(&mut self, pair: &Pair, x: &Vector3<f64>, square: f64) -> Option<()> {
         let (a, b) = Body::both(pair, 0.0);

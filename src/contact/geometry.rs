@@ -52,8 +52,8 @@ impl LocalContact {
         Self::along_normal(call.pair, &midway.solution, across, scale, bound, pieces)
     }
 
-    /// The same from the bound of the point and, where the particles overlap, S_A and S_B along the vector of `across`: on the quadratics at P3 the surface
-    /// is a square root away.
+    /// The same from the bound of the point and, where the particles overlap, S_A and S_B along the vector of `across`:
+    /// on the quadratics at P3 the surface is a square root away.
     #[inline(always)]
     pub fn along_normal(
         pair: &Pair,
@@ -194,8 +194,8 @@ impl Across {
         self.vector / self.length
     }
 
-    /// How far the surface is where S is this piece, with its slope along the vector: on the quadratic at hand, or from where
-    /// that would be. A piece of no reach says nothing, not even that a point where it is 1 lies on the surface.
+    /// How far the surface is where S is this piece, with its slope along the vector: on the quadratic at hand, or from
+    /// where that would be. A piece of no reach says nothing, not even that a point where it is 1 lies on the surface.
     #[inline(always)]
     fn way(&self, value: f64, piece: Piece, slope: f64, from_there: impl Fn(f64) -> Option<f64>) -> Option<f64> {
         let way = self.length * ray_cast::root_of_piece(value - piece.surplus - 1.0, slope, piece.curvature);
@@ -241,8 +241,8 @@ impl<'a> Ray<'a> {
     }
 }
 
-/// Resolves a negative overlap that is rounding: both surfaces are moved to a common point, each by a share of the overlap in inverse
-/// proportion to the cosine at which the normal meets it.
+/// Resolves a negative overlap that is rounding: both surfaces are moved to a common point, each by a share of the
+/// overlap in inverse proportion to the cosine at which the normal meets it.
 #[cold]
 fn meeting(rays: [Ray; 2], ways: [f64; 2]) -> (f64, f64) {
     // From a point that rounding has put in front of a face along the normal it is a long way to that face.
@@ -261,8 +261,8 @@ fn meeting(rays: [Ray; 2], ways: [f64; 2]) -> (f64, f64) {
     (to_a - share * passed, to_b - (1.0 - share) * passed)
 }
 
-/// Unit normal where a gradient vanishes, both point the same way, or a square is no number; and whether it had to be taken
-/// from the centres.
+/// Unit normal where a gradient vanishes, both point the same way, or a square is no number; and whether it had to be
+/// taken from the centres.
 #[cold]
 fn normal_of_extremes(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f64>, bool) {
     let [outward_a, outward_b] = gradients.map(|g| direction(&g));

@@ -11,8 +11,8 @@ use thiserror::Error;
 /// The derivative of a number in both poses: [`PoseRows`] has the order of the columns.
 pub type PoseRow = RowSVector<f64, 12>;
 
-/// The derivative of a vector, world axes, in both poses. Columns: a shift of A along x, y, z and a turn of A about its position (of
-/// a boundary: see [`crate::boundary_derivatives`]) and x, y, z, world axes, radians; then the same of B.
+/// The derivative of a vector, world axes, in both poses. Columns: a shift of A along x, y, z and a turn of A about its
+/// position (of a boundary: see [`crate::boundary_derivatives`]) and x, y, z, world axes, radians; then the same of B.
 pub type PoseRows = SMatrix<f64, 3, 12>;
 
 /// The derivatives of a contact in the poses of both bodies. What is NaN in the contact is NaN here.
@@ -55,8 +55,8 @@ impl ContactDerivatives {
     };
 }
 
-/// Weights on the numbers of a contact: the derivative of a cost in them. Zero by default; weights on what is NaN in the contact
-/// must be 0.
+/// Weights on the numbers of a contact: the derivative of a cost in them. Zero by default; weights on what is NaN in
+/// the contact must be 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct ContactWeights {
     /// On s.
@@ -87,8 +87,8 @@ pub struct PoseGradient {
 
 /// The derivative of a cost in the shape of a body; sums over many contacts add up in it.
 ///
-/// At the ends of the range of k its derivative is that towards the inside: at k = 0 towards a sphere of the given R (without one,
-/// where R is not positive, only the planes count), at k = 1 towards the given planes.
+/// At the ends of the range of k its derivative is that towards the inside: at k = 0 towards a sphere of the given R
+/// (without one, where R is not positive, only the planes count), at k = 1 towards the given planes.
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ShapeGradient {
@@ -116,17 +116,18 @@ impl ShapeGradient {
 pub struct DerivativeFlags(u32);
 
 impl DerivativeFlags {
-    /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, cannot be told within the bound on
-    /// the place of the point. The derivatives are those for the side on which it is off; that of s is the same on both.
+    /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, cannot be told
+    /// within the bound on the place of the point. The derivatives are those for the side on which it is off; that of s
+    /// is the same on both.
     pub const SWITCHING: Self = Self(1);
-    /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but s,
-    /// moves as the regularisation says ([`crate::Settings::flat_regularisation`]), by up to its inverse, and only for motions of about
-    /// its size. Raise it for derivatives of practical use.
+    /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but
+    /// s, moves as the regularisation says ([`crate::Settings::flat_regularisation`]), by up to its inverse, and only
+    /// for motions of about its size. Raise it for derivatives of practical use.
     pub const FREE: Self = Self(2);
     /// The contact is separated: overlap and surface points have no derivatives, and are NaN here as they are there.
     pub const SEPARATED: Self = Self(4);
-    /// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a boundary, by bodies whose r is 1e-11 of
-    /// their size), or planes switch even in 32 digits.
+    /// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a boundary,
+    /// by bodies whose r is 1e-11 of their size), or planes switch even in 32 digits.
     pub const IMPRECISE: Self = Self(8);
 
     const NAMES: [(Self, &'static str); 4] = [

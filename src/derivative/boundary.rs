@@ -15,11 +15,13 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
 
-/// The derivatives of a contact with a plane (no triangle) or a triangle, in the poses of the particle A and of the boundary.
+/// The derivatives of a contact with a plane (no triangle) or a triangle, in the poses of the particle A and of the
+/// boundary.
 ///
-/// `contact` is the answer of [`crate::contact_with_plane`] or [`crate::contact_with_triangle`]. As in a contact of two particles, with the boundary
-/// in place of B: `point_on_a` is `on_particle`, `point_on_b` is `on_boundary`. The boundary turns about the position of A, too, as it
-/// has none of its own: about another place o, add the derivatives in its shift times (position of A − o) × of the turn.
+/// `contact` is the answer of [`crate::contact_with_plane`] or [`crate::contact_with_triangle`]. As in a contact of two
+/// particles, with the boundary in place of B: `point_on_a` is `on_particle`, `point_on_b` is `on_boundary`. The
+/// boundary turns about the position of A, too, as it has none of its own: about another place o, add the derivatives
+/// in its shift times (position of A − o) × of the turn.
 ///
 /// ```
 /// use potential_particles::{Particle, Pose, Settings, Wall, boundary_derivatives, contact_with_plane};
@@ -47,7 +49,8 @@ pub fn boundary_derivatives(
     Ok(derivatives)
 }
 
-/// The derivative of a cost in the pose and shape of A, and in the pose of the boundary, from its derivatives in the numbers of a contact.
+/// The derivative of a cost in the pose and shape of A, and in the pose of the boundary, from its derivatives in the
+/// numbers of a contact.
 ///
 /// With the boundary in place of B, otherwise as [`crate::contact_gradient`]; poses as of [`boundary_derivatives`].
 ///

@@ -23,8 +23,8 @@ use nalgebra::Vector3;
 
 /// The derivatives of a contact in the poses of both bodies.
 ///
-/// `contact` is the answer of [`crate::detect()`] for the same bodies, poses and settings. Nothing is solved again, but for the closest points
-/// of a separated pair.
+/// `contact` is the answer of [`crate::detect()`] for the same bodies, poses and settings. Nothing is solved again, but
+/// for the closest points of a separated pair.
 ///
 /// ```
 /// use potential_particles::{Particle, Pose, Settings, contact_derivatives, detect};
@@ -57,8 +57,8 @@ pub fn contact_derivatives(
 
 /// The derivative of a cost in poses and shapes of both bodies, from its derivatives in the numbers of their contact.
 ///
-/// Adds to the gradients of the shapes that are given, and returns those of the poses of A and B. The work is linear in the number of active
-/// planes; `contact` and `settings` as for [`contact_derivatives`].
+/// Adds to the gradients of the shapes that are given, and returns those of the poses of A and B. The work is linear in
+/// the number of active planes; `contact` and `settings` as for [`contact_derivatives`].
 ///
 /// ```
 /// use potential_particles::{
@@ -238,7 +238,8 @@ impl<'a> Task<'a, '_> {
         Ok(then(&AlongNormal { s: self.contact.s, surfaces, optimum }))
     }
 
-    /// Branches of P1 and of P2 from both bodies, with the bound on their error and the lengths that their rounding comes from.
+    /// Branches of P1 and of P2 from both bodies, with the bound on their error and the lengths that their rounding
+    /// comes from.
     fn closest_branches(&self) -> Result<[Seen; 2], DerivativeError> {
         let [a, b] = self.bodies;
         let positions = [*a.1.position(), *b.1.position()];

@@ -1,4 +1,5 @@
-//! A potential at a point, and its derivatives in the pose and the shape of its body: in doubles, or in numbers of 32 digits.
+//! A potential at a point, and its derivatives in the pose and the shape of its body: in doubles, or in numbers of 32
+//! digits.
 
 use super::answer::ShapeGradient;
 use crate::linalg::double_double::DoubleDouble;
@@ -31,8 +32,8 @@ pub(super) struct Place<'a, N: Single = f64> {
     /// Bound on the distance of the point to the optimum, and on what it has lost to rounding, lengths.
     error: f64,
     rounding: f64,
-    /// Planes whose depth is within so much of 0 are active if they are listed: a stiff plane carries its share with a depth below the
-    /// rounding of the point. 0 where the sign of the depth decides.
+    /// Planes whose depth is within so much of 0 are active if they are listed: a stiff plane carries its share with a
+    /// depth below the rounding of the point. 0 where the sign of the depth decides.
     blur: f64,
     listed: Listed,
 }
@@ -77,7 +78,8 @@ pub(super) struct Field<N> {
     pub hessian: Symmetric<N>,
     /// Whether no plane is within the doubt about the point of being switched.
     pub clear: bool,
-    /// Bound on the relative rounding of the depths by which the gradient is made; infinite where the sign of one cannot be told.
+    /// Bound on the relative rounding of the depths by which the gradient is made; infinite where the sign of one
+    /// cannot be told.
     pub lost: f64,
     /// Whether the particle's own potential has a slope, and not that of the regularisation alone.
     pub sloped: bool,
@@ -201,7 +203,8 @@ impl<'a, N: Single> Place<'a, N> {
         self.body.local(&self.branch)
     }
 
-    /// Calls `visit` with place, normal and depth of each plane that may be active. Returns an upper bound on the depths of all others.
+    /// Calls `visit` with place, normal and depth of each plane that may be active. Returns an upper bound on the
+    /// depths of all others.
     #[inline(always)]
     fn visit_near(&self, y: &Vector3<N>, mut visit: impl FnMut(usize, Vector3<N>, N)) -> f64 {
         let (near, shape) = (y.map(N::approximate), self.body.particle);

@@ -1,7 +1,7 @@
 //! How an optimum moves with the potentials, forward and reverse.
 //!
-//! All vectors are in the axes of the optimum: two directions across the normal and the normal. Motions of a body are those at the optimum:
-//! three columns of the velocity of its point there and two of its turn.
+//! All vectors are in the axes of the optimum: two directions across the normal and the normal. Motions of a body are
+//! those at the optimum: three columns of the velocity of its point there and two of its turn.
 
 use super::answer::{DerivativeError, DerivativeFlags};
 use super::field::{Field, Place, Potential, dot3};
@@ -24,7 +24,8 @@ pub(super) enum Kind {
     OnBoundary(usize),
 }
 
-/// Where the least curvature across the normal is below this share of the sum, the axes are aligned with the curvatures, so that it keeps its digits.
+/// Where the least curvature across the normal is below this share of the sum, the axes are aligned with the
+/// curvatures, so that it keeps its digits.
 const GRADED: f64 = 1e-4;
 
 /// Relative rounding of depths from which on numbers of 32 digits are taken, and from which few digits are right.
@@ -37,8 +38,8 @@ const RUN: f64 = 1e-10;
 /// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
 const MOST_STEPS: usize = 30;
 
-/// Change of the normals at which these have converged, and below which they have where they change no less with a further step: what is left is
-/// rounding.
+/// Change of the normals at which these have converged, and below which they have where they change no less with a
+/// further step: what is left is rounding.
 const CONVERGED: [f64; 2] = [1e-24, 1e-13];
 
 /// An optimum with its linearised optimality conditions.
@@ -66,8 +67,8 @@ pub(super) struct Optimum<'a, N: Single = f64> {
     pub flags: DerivativeFlags,
 }
 
-/// The derivative of a number in the motion of A: three components of the velocity of its point at the optimum, and two of its turn; one
-/// about the normal, along which the gradient is, changes nothing there.
+/// The derivative of a number in the motion of A: three components of the velocity of its point at the optimum, and two
+/// of its turn; one about the normal, along which the gradient is, changes nothing there.
 pub(super) type ByMotion<N> = [N; 5];
 
 /// Weights σ on δS and Γ on δg of a body, Γ in world axes.
@@ -86,8 +87,8 @@ pub(super) fn unit<N: Single>(v: &Vector3<N>) -> Vector3<N> {
     scaled * (N::of(1.0) / dot3(&scaled, &scaled).root())
 }
 
-/// The normal at an optimum, along which gradients are opposed: of closest that of the body on which it lies, since the other one may be all but
-/// level there; of midway mostly that of the larger, which is known to more digits.
+/// The normal at an optimum, along which gradients are opposed: of closest that of the body on which it lies, since the
+/// other one may be all but level there; of midway mostly that of the larger, which is known to more digits.
 #[inline(always)]
 pub(super) fn normal_at<N: Single>(kind: Kind, places: &[Place<N>; 2]) -> Vector3<N> {
     let gradient = |i: usize| places[i].tangent().1;
@@ -146,7 +147,8 @@ impl<N: Single> Local<N> {
         Self { fields, weights, slopes, shares, across, bend }
     }
 
-    /// The direction of the largest curvature across the normal, where the other one is so small beside it that it has lost digits.
+    /// The direction of the largest curvature across the normal, where the other one is so small beside it that it has
+    /// lost digits.
     fn graded(&self) -> Option<Vector2<f64>> {
         let h = self.across.map(N::approximate);
         let (sum, half, mixed) = (h.m11 + h.m22, 0.5 * (h.m11 - h.m22), h.m12);
@@ -159,7 +161,8 @@ impl<N: Single> Local<N> {
         stiffest.try_normalize(0.0)
     }
 
-    /// (TᵀHT)⁻¹ on the directions that are free to move in, the least curvature, and whether the regularisation alone resists in one.
+    /// (TᵀHT)⁻¹ on the directions that are free to move in, the least curvature, and whether the regularisation alone
+    /// resists in one.
     #[inline(always)]
     fn inverse(&self, kind: Kind, places: &[Option<Place<N>>; 2]) -> Result<(Matrix2<N>, f64, bool), DerivativeError> {
         let h = self.across;
@@ -249,7 +252,8 @@ impl<'a, N: Single> Optimum<'a, N> {
         self.run > RUN || self.fields.iter().any(|field| field.lost > LOST)
     }
 
-    /// The factor of a·δS_A + b·δS_B in the derivative of the least S, and hence of its root s: that of the body whose S is sought.
+    /// The factor of a·δS_A + b·δS_B in the derivative of the least S, and hence of its root s: that of the body whose
+    /// S is sought.
     #[inline]
     pub fn of_value(&self) -> N {
         match self.kind {

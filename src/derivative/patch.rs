@@ -11,20 +11,21 @@ use nalgebra::{Matrix3, Vector3};
 pub struct PatchDerivatives {
     /// Of the force on B; that on A is minus it.
     pub force: PoseRows,
-    /// Of the torque on A about its position, and of that on B about its own. With `force` they are minus the second derivative of the
-    /// energy W/K.
+    /// Of the torque on A about its position, and of that on B about its own. With `force` they are minus the second
+    /// derivative of the energy W/K.
     pub torque_on_a: PoseRows,
     /// See [`Self::torque_on_a`].
     pub torque_on_b: PoseRows,
 }
 
-/// The derivatives of force and torques of the patch of two bodies, from its stiffness: [`Patch::stiffness`] in the columns of
-/// [`crate::contact_derivatives`].
+/// The derivatives of force and torques of the patch of two bodies, from its stiffness: [`Patch::stiffness`] in the
+/// columns of [`crate::contact_derivatives`].
 ///
-/// `to_point` are the ways from the positions of A and B to the contact point, [`crate::Contact::branch_a`] and `branch_b`; for a boundary, which turns
-/// about the position of A as in [`crate::boundary_derivatives`], both `on_boundary` minus position. `None` where the patch was found without
-/// its stiffness. With the wrenches on both bodies as minus the derivatives of W/K in their
-/// poses this is minus its second derivative: symmetric in the shifts; in turns, which do not commute, but for half a wrench (docs/derivatives.md).
+/// `to_point` are the ways from the positions of A and B to the contact point, [`crate::Contact::branch_a`] and
+/// `branch_b`; for a boundary, which turns about the position of A as in [`crate::boundary_derivatives`], both
+/// `on_boundary` minus position. `None` where the patch was found without its stiffness. With the wrenches on both
+/// bodies as minus the derivatives of W/K in their poses this is minus its second derivative: symmetric in the shifts;
+/// in turns, which do not commute, but for half a wrench (docs/derivatives.md).
 ///
 /// ```
 /// use potential_particles::*;

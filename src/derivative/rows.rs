@@ -1,6 +1,7 @@
 //! How points, normals and numbers move with both poses, from how they move with A alone.
 //!
-//! If both bodies move alike, a point and a normal go with them and a number stays: the motion of B is that of both less that of A.
+//! If both bodies move alike, a point and a normal go with them and a number stays: the motion of B is that of both
+//! less that of A.
 
 use super::answer::{PoseRow, PoseRows};
 use super::field::times;
@@ -36,8 +37,8 @@ impl ToWorld {
         self.axes.column(2).into_owned()
     }
 
-    /// From the derivative in the motion of A, and from that in motions of both together, world axes. Written out, and into its place: closures
-    /// and copies would take longer than the numbers.
+    /// From the derivative in the motion of A, and from that in motions of both together, world axes. Written out, and
+    /// into its place: closures and copies would take longer than the numbers.
     #[inline(always)]
     fn of_both<N: Single>(&self, [x, y, z]: &[ByMotion<N>; 3], together: &[Columns; 2], rows: &mut PoseRows) {
         let q = &self.axes;
@@ -92,7 +93,8 @@ impl ToWorld {
 const ZERO: Columns = [Vector3::new(0.0, 0.0, 0.0); 3];
 const UNIT: Columns = [Vector3::new(1.0, 0.0, 0.0), Vector3::new(0.0, 1.0, 0.0), Vector3::new(0.0, 0.0, 1.0)];
 
-/// How an optimum moves with A alone, own axes: the point, across the normal and along it, the normal across itself, and the root of the least S.
+/// How an optimum moves with A alone, own axes: the point, across the normal and along it, the normal across itself,
+/// and the root of the least S.
 pub(super) struct ByA<N> {
     pub point: [ByMotion<N>; 3],
     pub normal: [ByMotion<N>; 2],

@@ -1,9 +1,9 @@
 //! Numbers of about 32 digits: the unevaluated sum of two doubles.
 //!
 //! Algorithms and error bounds are those of Joldes, Muller & Popescu (2017), "Tight and rigorous error bounds for basic
-//! building blocks of double-word arithmetic", ACM TOMS 44(2): with u = 2⁻⁵³ the relative error is at most 3u² + 13u³ of a
-//! sum or difference (their algorithm 6), 7u² of a product (without fused multiplication) and 15u² of a quotient. One bound,
-//! [`DoubleDouble::UNIT`] = 16u², covers them all.
+//! building blocks of double-word arithmetic", ACM TOMS 44(2): with u = 2⁻⁵³ the relative error is at most 3u² + 13u³
+//! of a sum or difference (their algorithm 6), 7u² of a product (without fused multiplication) and 15u² of a quotient.
+//! One bound, [`DoubleDouble::UNIT`] = 16u², covers them all.
 
 use num_traits::{One, Zero};
 use std::cmp::Ordering;
@@ -50,8 +50,8 @@ impl DoubleDouble {
         self.high.is_finite() && self.low.is_finite()
     }
 
-    /// Square root of a number that is not negative; 0 for a negative one, NaN for NaN. One step of Newton's method on the double root
-    /// squares its error.
+    /// Square root of a number that is not negative; 0 for a negative one, NaN for NaN. One step of Newton's method on
+    /// the double root squares its error.
     pub fn sqrt(self) -> Self {
         if self.high <= 0.0 {
             return Self::default();
@@ -203,7 +203,9 @@ mod tests {
     proptest! {
         // Whole numbers up to 2¹⁰⁰ in i128 say what sums and products should be.
         #[test]
-        fn sums_and_products_are_those_of_whole_numbers(a in -(1i128 << 60)..(1i128 << 60), b in -(1i128 << 60)..(1i128 << 60)) {
+        fn sums_and_products_are_those_of_whole_numbers(
+            a in -(1i128 << 60)..(1i128 << 60), b in -(1i128 << 60)..(1i128 << 60)
+        ) {
             let of = |n: i128| {
                 let high = n as f64;
                 DoubleDouble::from(high) + DoubleDouble::from((n - high as i128) as f64)

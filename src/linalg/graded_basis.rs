@@ -13,14 +13,15 @@ pub(crate) const PARALLEL: f64 = 1e-30;
 /// Most normals kept from the first pass over the planes for the second: few points have more planes on.
 const MOST_KEPT: usize = 16;
 
-/// The normals of planes that are on, each with the weighted 2w of its plane; times |n|² that is its curvature in the sum.
+/// The normals of planes that are on, each with the weighted 2w of its plane; times |n|² that is its curvature in the
+/// sum.
 pub(crate) trait StiffNormals {
     /// Calls `visit` with each normal and weight, in the same order each time.
     fn visit(&self, visit: impl FnMut(Vector3<f64>, f64));
 }
 
-/// Orthonormal axes (columns) of points with so many coordinates, stiffest first. In place of the others there are zeros, so that a
-/// quadratic in these axes has neither slope nor planes across the boundary on which the points lie.
+/// Orthonormal axes (columns) of points with so many coordinates, stiffest first. In place of the others there are
+/// zeros, so that a quadratic in these axes has neither slope nor planes across the boundary on which the points lie.
 pub(crate) fn aligned(normals: &impl StiffNormals, dimensions: usize) -> Matrix3<f64> {
     if dimensions == 3 {
         return aligned_in_space(normals);
@@ -100,8 +101,8 @@ pub(crate) fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
     n.cross(&least_axis(n)).normalize()
 }
 
-/// The axis to which a vector is nearest to being at right angles; of equally good ones the last: across a normal in the plane z = 0 that gives
-/// another one in it.
+/// The axis to which a vector is nearest to being at right angles; of equally good ones the last: across a normal in
+/// the plane z = 0 that gives another one in it.
 pub(crate) fn least_axis(n: &Vector3<f64>) -> Vector3<f64> {
     let [x, y, z] = [n.x.abs(), n.y.abs(), n.z.abs()];
     if z <= x && z <= y {
@@ -124,7 +125,8 @@ mod tests {
         }
     }
 
-    /// The softest of three directions keeps its curvature, 1e-18 of the stiffest one: the third axis is at right angles to both normals.
+    /// The softest of three directions keeps its curvature, 1e-18 of the stiffest one: the third axis is at right
+    /// angles to both normals.
     #[test]
     fn axes_are_orthonormal_and_follow_the_stiffest_normals() {
         let (stiff, soft) = (Vector3::new(0.6, 0.8, 0.1), Vector3::new(0.5, 0.9, 0.3));

@@ -6,15 +6,16 @@
 //! H = Σ 2w n nᵀ + 2m·1 = L D Lᵀ
 //! ```
 //!
-//! The terms may differ by a factor of 10¹⁸. Summed in arbitrary axes, 2m is then lost in the rounding of the planes, and with it
-//! the position along every direction that no plane resists. Two measures keep it: axes aligned with the stiffest planes, in
-//! which elimination preserves the relative precision of each direction ([`graded_basis`]), and pivots that are never less than the known least
-//! curvature ([`symmetric::Factor`]); see "Axes" in section 3 of docs/theory.md. What remains is solved again in double-doubles, of which each
-//! operation has the relative error U = 16u², u = 2⁻⁵³.
+//! The terms may differ by a factor of 10¹⁸. Summed in arbitrary axes, 2m is then lost in the rounding of the planes,
+//! and with it the position along every direction that no plane resists. Two measures keep it: axes aligned with the
+//! stiffest planes, in which elimination preserves the relative precision of each direction ([`graded_basis`]), and
+//! pivots that are never less than the known least curvature ([`symmetric::Factor`]); see "Axes" in section 3 of
+//! docs/theory.md. What remains is solved again in double-doubles, of which each operation has the relative error U =
+//! 16u², u = 2⁻⁵³.
 //!
-//! One source serves both tiers: matrices, factors and the search for λ are generic over [`number::Number`], which is a double, two doubles in
-//! lanes ([`number::Twin`]), or a double-double. Sections 4.1 and 4.9 of docs/theory.md bound the rounding. Each file uses only those
-//! above it:
+//! One source serves both tiers: matrices, factors and the search for λ are generic over [`number::Number`], which is a
+//! double, two doubles in lanes ([`number::Twin`]), or a double-double. Sections 4.1 and 4.9 of docs/theory.md bound
+//! the rounding. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

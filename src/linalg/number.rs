@@ -17,7 +17,8 @@ pub(crate) fn same(a: &[f64], b: &[f64]) -> bool {
     a.iter().zip(b).all(|(a, b)| a == b || (a.is_nan() && b.is_nan()))
 }
 
-/// Equality of an answer: of what is no number, of numbers and of vectors. What does not apply, NaN, is equal to itself.
+/// Equality of an answer: of what is no number, of numbers and of vectors. What does not apply, NaN, is equal to
+/// itself.
 macro_rules! equality {
     ($answer:ty: $($exact:ident),*; $($number:ident),*; $($vector:ident),*) => {
         /// What does not apply, NaN, counts as equal.
@@ -212,8 +213,8 @@ pub(crate) fn smaller(a: f64, b: f64) -> f64 {
     if a < b { a } else { b }
 }
 
-/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction. The one place where directions of any length
-/// that callers give are normalised.
+/// A vector at unit length, also where its square is lost or infinite; `None` if it has no direction. The one place
+/// where directions of any length that callers give are normalised.
 pub(crate) fn direction<const N: usize>(v: &SVector<f64, N>) -> Option<SVector<f64, N>> {
     let scaled = v / v.amax();
     scaled.iter().all(|c| c.is_finite()).then(|| scaled.normalize())

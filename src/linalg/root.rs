@@ -35,8 +35,8 @@ const MOST_STEPS: usize = 100;
 
 /// The root of a function that changes its sign once on a finite bracket, from below to above, by Newton's method.
 ///
-/// `at` returns value and slope. Where Newton's step leaves the bracket, or is not a number, the bracket is halved: every
-/// step narrows it, and near a simple root the convergence is quadratic. The search ends with a step of at most
+/// `at` returns value and slope. Where Newton's step leaves the bracket, or is not a number, the bracket is halved:
+/// every step narrows it, and near a simple root the convergence is quadratic. The search ends with a step of at most
 /// `last_step`·|t|. If that was one of Newton's, what it leaves is about its square, in units of the curvature over the
 /// slope; if it was a bisection, the root is nearer than the step.
 pub(crate) fn newton(mut bracket: Bracket, start: f64, last_step: f64, mut at: impl FnMut(f64) -> (f64, f64)) -> f64 {

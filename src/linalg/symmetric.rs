@@ -6,8 +6,8 @@ use nalgebra::{Matrix3, Vector3};
 /// Share of the trace from which an eigenvalue can be told from the rounding of the determinant.
 const LEAST_TOLD: f64 = 1e-7;
 
-/// Bound on that rounding where it can: the products of the determinant are at most tr³, and γ₈ of their sum is 1e-14·tr³ at most,
-/// where the determinant is 2.5e-8·tr³ (estimated).
+/// Bound on that rounding where it can: the products of the determinant are at most tr³, and γ₈ of their sum is
+/// 1e-14·tr³ at most, where the determinant is 2.5e-8·tr³ (estimated).
 const DETERMINANT_ROUNDING: f64 = 1e-6;
 
 /// A symmetric 3×3 matrix, of numbers or of lanes of them.
@@ -109,8 +109,9 @@ impl Symmetric {
         }
     }
 
-    /// Lower bound of the least eigenvalue of a matrix that has none below 0, given its determinant: the other two multiply to (½·tr)² at most, so that it
-    /// is at least 4·det/tr². 0 where that is less than [`LEAST_TOLD`] of the trace.
+    /// Lower bound of the least eigenvalue of a matrix that has none below 0, given its determinant: the other two
+    /// multiply to (½·tr)² at most, so that it is at least 4·det/tr². 0 where that is less than [`LEAST_TOLD`] of the
+    /// trace.
     #[inline]
     pub(crate) fn least_eigenvalue(&self, determinant: f64) -> f64 {
         let trace = self.trace();
@@ -193,7 +194,8 @@ impl<N: Number> Factor<N> {
         let l21 = c21 * i1;
         let d2 = h.zz - l20 * h.zx - l21 * c21;
         let i2 = one / d2.larger(least);
-        // A sum is finite only if all its terms are; the larger of NaN and `least` is `least`, so that pivots are summed as well.
+        // A sum is finite only if all its terms are; the larger of NaN and `least` is `least`, so that pivots are
+        // summed as well.
         let finite = (h.xx + d1 + d2 + (i0 + i1 + i2)).is_finite();
         (least.is_positive() && finite).then_some(Self { l10, l20, l21, inverse_d: [i0, i1, i2] })
     }

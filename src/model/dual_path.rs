@@ -33,8 +33,8 @@ pub(crate) struct Side<'a, N> {
 
 /// The pair of quadratics and the problem: what stays the same while λ is searched.
 ///
-/// Functions that are rarely called take it and the probes by value: an address passed on would keep them in memory on the common
-/// path.
+/// Functions that are rarely called take it and the probes by value: an address passed on would keep them in memory on
+/// the common path.
 #[derive(Clone, Copy)]
 pub(crate) struct DualPath<'a, N> {
     a: Side<'a, N>,
@@ -105,8 +105,8 @@ impl<'a, N: Number> DualPath<'a, N> {
         Self { a, b, problem, rate_hessian, rate_value }
     }
 
-    /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A and
-    /// q_B follow from the two.
+    /// With H v = −g the weighted sum is ½ g·v more than at the point of expansion, and D v gives the other sum: q_A
+    /// and q_B follow from the two.
     #[inline(always)]
     pub fn probe(&self, lambda: N) -> Option<Probe<N>> {
         let (half, weights @ (a, b)) = (N::of(0.5), self.problem.weights(lambda));
@@ -187,8 +187,8 @@ impl<'a, N: Number> DualPath<'a, N> {
         self.after(step, series.lambda, found)
     }
 
-    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the mismatch
-    /// cancel and say nothing about those of the curve.
+    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the
+    /// mismatch cancel and say nothing about those of the curve.
     #[inline(always)]
     pub fn is_balanced(&self, found: &Optimum<N>) -> bool {
         let (a, _) = self.problem.weights(found.lambda);
@@ -252,8 +252,8 @@ mod tests {
         }
     }
 
-    /// With a tenth of the mismatch to begin with, the series of four terms leaves a hundred thousandth, and its point, of three, a ten
-    /// thousandth.
+    /// With a tenth of the mismatch to begin with, the series of four terms leaves a hundred thousandth, and its point,
+    /// of three, a ten thousandth.
     #[test]
     fn the_series_leaves_the_fifth_power_of_the_mismatch() {
         let sides = sides();

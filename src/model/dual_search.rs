@@ -1,7 +1,7 @@
 //! The two quadratics at a point, solved exactly: one step of the fast solver.
 //!
-//! The optimum lies on their [`crate::model::dual_path`], where the mismatch of the problem is zero: λ is searched along its series, or
-//! in logarithms where that is of no use.
+//! The optimum lies on their [`crate::model::dual_path`], where the mismatch of the problem is zero: λ is searched
+//! along its series, or in logarithms where that is of no use.
 
 use crate::linalg::number::{Number, Single, Twin, larger};
 use crate::linalg::symmetric::Symmetric;
@@ -20,8 +20,8 @@ pub(crate) struct DualSearch<'a, N = f64> {
     expanded: f64,
 }
 
-/// Mismatch at which λ counts as settled (chosen), in numbers of this unit: 4 units of the values at the point of expansion and 8 of
-/// the larger side.
+/// Mismatch at which λ counts as settled (chosen), in numbers of this unit: 4 units of the values at the point of
+/// expansion and 8 of the larger side.
 #[inline(always)]
 fn noise<N: Number>(unit: f64, expanded: N, larger: N) -> N {
     N::of(4.0 * unit) * expanded + N::of(8.0 * unit) * larger
@@ -38,11 +38,12 @@ const FARTHEST: f64 = 1e6;
 /// out then is some 1e-3 of the mismatch.
 const NEAR: f64 = 0.1;
 
-/// The same share at which a point is taken to the third order: some share⁴ = 8e-15 of it is left out, and `is_balanced` decides.
+/// The same share at which a point is taken to the third order: some share⁴ = 8e-15 of it is left out, and
+/// `is_balanced` decides.
 const VERY_NEAR: f64 = 3e-4;
 
-/// Points of both curves from which P1 and P2 are looked for before each is searched alone: where λ was guessed, and where the
-/// series leads from there.
+/// Points of both curves from which P1 and P2 are looked for before each is searched alone: where λ was guessed, and
+/// where the series leads from there.
 const MOST_PROBES: usize = 2;
 
 /// Where a search goes from a point of the curve.
@@ -104,7 +105,8 @@ impl<'a, N: Single> DualSearch<'a, N> {
         Self { curve: DualPath::new(a, b, problem), problem, expanded: of_a + of_b }
     }
 
-    /// Searches λ from a guess until the two sides meet as well as rounding allows. `None` when a factorisation breaks down.
+    /// Searches λ from a guess until the two sides meet as well as rounding allows. `None` when a factorisation breaks
+    /// down.
     #[inline(always)]
     pub fn solve(&self, guess: N) -> Option<Optimum<N>> {
         let approximate = guess.approximate();
@@ -189,7 +191,8 @@ pub(crate) fn side(q: &Quadratic, soft: f64) -> Side<'_, f64> {
 
 /// P1 and P2 along the series of their curves, from guesses of their λ; `None` where that does not do.
 ///
-/// Each holds one body at S = 1 and minimises the other's S: the same in two lanes, in one of them with the bodies swapped.
+/// Each holds one body at S = 1 and minimises the other's S: the same in two lanes, in one of them with the bodies
+/// swapped.
 #[inline(always)]
 pub(crate) fn both_closest([q_a, q_b]: [&Quadratic; 2], soft: (f64, f64), lambdas: [f64; 2]) -> Option<[Optimum; 2]> {
     let is_weight = |lambda: f64| lambda > LAMBDA_RANGE.0 && lambda < LAMBDA_RANGE.1;

@@ -6,10 +6,12 @@ use crate::pair::local_point::LocalPoint;
 use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
-/// Bound on the rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum (docs/theory.md, "Rounding").
+/// Bound on the rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum (docs/theory.md,
+/// "Rounding").
 pub(crate) const DEPTH_ROUNDING: f64 = 14.0 * f64::EPSILON;
 
-/// Factor on a distance to a plane: so far below 1 that the rounding of the distance does not hide that the plane switches.
+/// Factor on a distance to a plane: so far below 1 that the rounding of the distance does not hide that the plane
+/// switches.
 pub(crate) const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;
 
 /// What a step does to the active set of one body.
@@ -35,14 +37,16 @@ pub(crate) struct KktCheck {
 /// What a step does to an active set, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum Change {
-    /// Every active plane has a multiplier ≥ 0 and no other has become active: the model is S there, and a lower bound of S
-    /// everywhere.
+    /// Every active plane has a multiplier ≥ 0 and no other has become active: the model is S there, and a lower bound
+    /// of S everywhere.
     None,
     /// Every active plane has a multiplier ≥ 0, but another has become active: the model is a lower bound only.
     Entering,
-    /// A plane that was active by no more than its rounding has a negative multiplier: the model is solved again without it.
+    /// A plane that was active by no more than its rounding has a negative multiplier: the model is solved again
+    /// without it.
     Leaving,
-    /// A plane that is on by more than rounding has a negative multiplier after the step: the point moves before any plane is dropped.
+    /// A plane that is on by more than rounding has a negative multiplier after the step: the point moves before any
+    /// plane is dropped.
     Pulling,
 }
 
@@ -50,8 +54,8 @@ impl KktCheck {
     /// Checks the planes of a body after the step v, of the given length.
     ///
     /// A quadratic whose planes all have a depth n·x − d + n·v ≥ 0 is a lower bound of S everywhere: the depths are
-    /// admissible multipliers, by ⟨t⟩² ≥ 2pt − p² for every p ≥ 0. The sign is judged in the model's own arithmetic, to which the
-    /// rounding of n·x − d is but a shift of the plane.
+    /// admissible multipliers, by ⟨t⟩² ≥ 2pt − p² for every p ≥ 0. The sign is judged in the model's own arithmetic, to
+    /// which the rounding of n·x − d is but a shift of the plane.
     #[inline(always)]
     pub fn after(body: &Body, point: &LocalPoint, q: &Quadratic, v: &Vector3<f64>, length: f64) -> Self {
         let moved = body.particle.bounds.longest_normal * length;
@@ -121,7 +125,8 @@ struct Planes<'a> {
     /// Bound on the rounding of the step in the body's axes, and of a depth by it.
     step_rounding: f64,
     doubt_of_all: f64,
-    /// Of the planes that were on by no more than their rounding, the one with the most negative multiplier, and its depth.
+    /// Of the planes that were on by no more than their rounding, the one with the most negative multiplier, and its
+    /// depth.
     worst: Option<(usize, f64)>,
     /// Whether a plane that was on by more than rounding has a negative multiplier.
     pulling: bool,
@@ -248,7 +253,8 @@ mod tests {
         ] {
             let (check, ..) = after([0.5, 0.0, 0.0], v);
             assert_eq!(check.change, change, "{v:?}");
-            // No more than the distance of the planes that are off; where the step is short, than that of the plane that is on as well.
+            // No more than the distance of the planes that are off; where the step is short, than that of the plane
+            // that is on as well.
             assert!(check.clear > 0.0 && check.clear <= clear + 1e-12, "{v:?}: {}", check.clear);
             assert!(check.drop.is_none());
         }

@@ -16,7 +16,8 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) enum Axes {
     /// Those of B.
     OfB,
-    /// Aligned with the stiffest planes, chosen anew at each point where those that are on leave a soft direction; else those of B.
+    /// Aligned with the stiffest planes, chosen anew at each point where those that are on leave a soft direction; else
+    /// those of B.
     Graded,
     /// Of a boundary: its own, as many as a point of it has coordinates.
     OfBoundary(usize),
@@ -24,8 +25,8 @@ pub(crate) enum Axes {
     GradedOnBoundary(usize),
 }
 
-/// Ratio of plane to sphere curvature above which the axes of B may lose a soft direction: its relative error
-/// is the ratio times 1e-16, and a Newton step is still worth its cost at 1e-8 or so. Where planes resist in all directions,
+/// Ratio of plane to sphere curvature above which the axes of B may lose a soft direction: its relative error is the
+/// ratio times 1e-16, and a Newton step is still worth its cost at 1e-8 or so. Where planes resist in all directions,
 /// as at a corner, there is no soft one ([`crate::linalg::symmetric::Symmetric::least_eigenvalue`]).
 const GRADED_FROM: f64 = 1e7;
 
@@ -67,8 +68,8 @@ impl Axes {
 }
 
 impl Axes {
-    /// Those of a boundary, if it is one. The others are columns of zeros: so the quadratics have neither slope nor planes across it, and
-    /// no step leads off it.
+    /// Those of a boundary, if it is one. The others are columns of zeros: so the quadratics have neither slope nor
+    /// planes across it, and no step leads off it.
     #[inline(always)]
     fn on_boundary(self, bodies: [&Body; 2], points: &[LocalPoint; 2]) -> Option<Matrix3<f64>> {
         match self {
@@ -125,8 +126,8 @@ impl LocalModel {
         model
     }
 
-    /// ∇S_A and ∇S_B after a step on a boundary, solver's frame, with what they have across it, which the quadratics leave out; and the
-    /// sums of their lengths where the step begins and ends.
+    /// ∇S_A and ∇S_B after a step on a boundary, solver's frame, with what they have across it, which the quadratics
+    /// leave out; and the sums of their lengths where the step begins and ends.
     #[inline(never)]
     pub fn gradients_on_boundary(&self, bodies: [&Body; 2], v: &Vector3<f64>) -> ([Vector3<f64>; 2], [f64; 2]) {
         let whole = bodies[0].at(&self.points[0], None);
@@ -134,8 +135,8 @@ impl LocalModel {
         ([gradient, Vector3::zeros()], [whole.gradient.norm() + gradient.norm(), 0.0])
     }
 
-    /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly, which the spheres of the sum do not hold
-    /// either: one of them may do for both.
+    /// Whether the planes of the sum with these weights leave a direction without resistance, or nearly, which the
+    /// spheres of the sum do not hold either: one of them may do for both.
     fn has_soft_direction(&self, bodies: [&Body; 2], (a, b): (f64, f64)) -> bool {
         let h = self.q_a.hessian.weighted(a, &self.q_b.hessian, b);
         let soft = softest(bodies);

@@ -1,21 +1,24 @@
 //! Both potentials as quadratics at a point, and the exact optimum of these two quadratics.
 //!
-//! With the active sets of a point x held fixed, S_A and S_B become quadratics q_A and q_B. Every formulation minimises, for a weight θ,
+//! With the active sets of a point x held fixed, S_A and S_B become quadratics q_A and q_B. Every formulation
+//! minimises, for a weight θ,
 //!
 //! ```text
 //! φ_θ = a q_A + b q_B,    a, b ≥ 0 linear in θ:   H v = −g,   H = aH_A + bH_B,   g = ag_A + bg_B
 //! ```
 //!
-//! and seeks the θ at which the *mismatch* of the formulation vanishes: S_A − S_B for midway, 1 − S_B or 1 − S_A for a closest point. On a boundary
-//! a = 1, b = 0 and no θ is sought. As θ changes, v runs along the *dual path*, whose Taylor series follows from one factorisation of H; its
-//! reversion multiplies the number of correct digits by five at each step. Weights are passed on as the ratio λ = b/a.
+//! and seeks the θ at which the *mismatch* of the formulation vanishes: S_A − S_B for midway, 1 − S_B or 1 − S_A for a
+//! closest point. On a boundary a = 1, b = 0 and no θ is sought. As θ changes, v runs along the *dual path*, whose
+//! Taylor series follows from one factorisation of H; its reversion multiplies the number of correct digits by five at
+//! each step. Weights are passed on as the ratio λ = b/a.
 //!
-//! The optimum of the quadratics is that of the potentials if the active sets are the same at x + v. The *KKT check* decides: all active
-//! depths ≥ 0 and no plane entering (optimal); a plane entering (the dual value is still a lower bound); an active plane with a negative multiplier
-//! (excluded if it was active by rounding only, otherwise the point has to move first).
+//! The optimum of the quadratics is that of the potentials if the active sets are the same at x + v. The *KKT check*
+//! decides: all active depths ≥ 0 and no plane entering (optimal); a plane entering (the dual value is still a lower
+//! bound); an active plane with a negative multiplier (excluded if it was active by rounding only, otherwise the point
+//! has to move first).
 //!
-//! Sections 2 and 3 of docs/theory.md derive the problems, the series and the check; 4.6 the rounding of a depth after a step. Each file
-//! uses only those above it:
+//! Sections 2 and 3 of docs/theory.md derive the problems, the series and the check; 4.6 the rounding of a depth after
+//! a step. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,8 +1,8 @@
 //! The formulations of a contact as one dual problem: weights, merit and dual value of each.
 //!
-//! Every problem is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway:
-//! a = 1 − θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1; on a boundary: a = 1, b = 0. What is passed around is the ratio λ = b/a, which keeps
-//! its digits where one weight is all but zero.
+//! Every problem is a dual problem in one weight θ: minimise a(θ)·S_A + b(θ)·S_B, a and b linear in θ. Midway: a = 1 −
+//! θ, b = θ; on B: a = 1, b = θ; on A: a = θ, b = 1; on a boundary: a = 1, b = 0. What is passed around is the ratio λ
+//! = b/a, which keeps its digits where one weight is all but zero.
 
 use crate::linalg::number::{Number, larger};
 
@@ -22,8 +22,8 @@ pub(crate) enum Problem {
 /// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
 pub(crate) const PRICE: f64 = 2.0;
 
-/// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of a|∇S_A|, which is half
-/// of that sum where forces balance (docs/theory.md, "Rounding").
+/// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of
+/// a|∇S_A|, which is half of that sum where forces balance (docs/theory.md, "Rounding").
 pub(crate) const TURN: f64 = 14.0;
 
 impl Problem {
@@ -113,8 +113,8 @@ impl Problem {
         a * error_a + b * error_b
     }
 
-    /// Both sides of the optimality equation: equal at the optimum. Their difference, first less second, grows with λ; one may be the
-    /// constant 1.
+    /// Both sides of the optimality equation: equal at the optimum. Their difference, first less second, grows with λ;
+    /// one may be the constant 1.
     #[inline]
     pub fn sides<N: Number>(self, s_a: N, s_b: N) -> (N, N) {
         match self {
@@ -134,7 +134,8 @@ impl Problem {
         }
     }
 
-    /// Bounds of S_A and S_B where the optimum can be, from an upper bound of what is minimised: a body that is held has S ≤ 1 there.
+    /// Bounds of S_A and S_B where the optimum can be, from an upper bound of what is minimised: a body that is held
+    /// has S ≤ 1 there.
     #[inline]
     pub fn levels(self, upper: f64) -> [f64; 2] {
         let level = larger(upper, 1.0);
@@ -186,7 +187,8 @@ impl Problem {
         }
     }
 
-    /// dm/dθ, given that of the quadratics. Infinite where there is no θ: no error is then compensated by a change of the weights.
+    /// dm/dθ, given that of the quadratics. Infinite where there is no θ: no error is then compensated by a change of
+    /// the weights.
     #[inline(always)]
     pub fn rate<N: Number>(self, of_quadratics: N) -> N {
         if self == Self::OnBoundary { N::of(f64::INFINITY) } else { of_quadratics }
@@ -219,7 +221,8 @@ mod tests {
         }
     }
 
-    /// Weak duality at a point: the dual value of any λ is at most the merit of any point, and equal where both sides are.
+    /// Weak duality at a point: the dual value of any λ is at most the merit of any point, and equal where both sides
+    /// are.
     #[test]
     fn the_dual_value_is_no_more_than_the_merit() {
         for problem in ALL {

@@ -82,8 +82,8 @@ impl Container {
         }
     }
 
-    /// Whether the particle surely lies within: by its box, and within the wall of a cylinder by its ball or by the corners of
-    /// the polyhedron that holds it.
+    /// Whether the particle surely lies within: by its box, and within the wall of a cylinder by its ball or by the
+    /// corners of the polyhedron that holds it.
     pub(crate) fn holds(&self, particle: &Particle, pose: &Pose) -> bool {
         let (lower, upper) = particle.bounding_box(pose);
         let axes = if self.radius.is_finite() { 2..3 } else { 0..3 };

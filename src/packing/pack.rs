@@ -1,8 +1,8 @@
 //! The whole of packing: bodies look for their places in rounds, and each takes its place if nobody took it before.
 //!
-//! In a round a few bodies look at once, each on its own, in the pile as it was when the round began; then they take their
-//! places in order. Who finds his taken looks again in the next round. How many look at once does not depend on the number of
-//! threads, so that neither does the packing.
+//! In a round a few bodies look at once, each on its own, in the pile as it was when the round began; then they take
+//! their places in order. Who finds his taken looks again in the next round. How many look at once does not depend on
+//! the number of threads, so that neither does the packing.
 
 use crate::contact::batch::{CHUNK, in_parallel};
 use crate::packing::container::Container;
@@ -59,8 +59,8 @@ const GIVE_UP: usize = 64;
 /// Most bodies.
 const MOST_BODIES: usize = 10_000_000;
 
-/// Share of the container's cross-section, in squares of the bodies' widths, that a body has for itself in a round: with less,
-/// many would find their places taken.
+/// Share of the container's cross-section, in squares of the bodies' widths, that a body has for itself in a round:
+/// with less, many would find their places taken.
 const ROOM: f64 = 32.0;
 
 /// Bodies that look for their places at once, at most.
@@ -69,8 +69,8 @@ const MOST_AT_ONCE: f64 = 64.0;
 /// Fills a container with bodies of random orientation that do not overlap, as [`crate::detect`] decides.
 ///
 /// `progress` is called after each round with all bodies so far, in the order in which they found their places. When it
-/// returns false, the packing ends with these. It also ends when 64 bodies one after the other have found no place: fewer
-/// than `number` are given back then.
+/// returns false, the packing ends with these. It also ends when 64 bodies one after the other have found no place:
+/// fewer than `number` are given back then.
 ///
 /// ```
 /// use potential_particles::Particle;
@@ -87,8 +87,8 @@ const MOST_AT_ONCE: f64 = 64.0;
 /// ```
 ///
 /// # Errors
-/// No shapes, more than ten million bodies, a margin that is no distance, a scattered packing without a number, shapes that are no particles once they
-/// are scaled, or a container into which no body fits.
+/// No shapes, more than ten million bodies, a margin that is no distance, a scattered packing without a number, shapes
+/// that are no particles once they are scaled, or a container into which no body fits.
 pub fn pack(
     container: &Container,
     shapes: &[Particle],

@@ -46,7 +46,8 @@ pub(crate) struct Trial<'a> {
     pile: &'a Pile,
     pub particle: &'a Particle,
     settings: Settings,
-    /// Bodies that may be met while the centre is within `reach` of `from`; the one that was in the way last stands first.
+    /// Bodies that may be met while the centre is within `reach` of `from`; the one that was in the way last stands
+    /// first.
     near: Vec<(u32, PairState)>,
     from: Vector3<f64>,
     reach: f64,
@@ -63,7 +64,8 @@ impl<'a> Trial<'a> {
         Self { pile, particle, settings: Settings::default(), near: Vec::new(), from, reach, numbers: Vec::new() }
     }
 
-    /// Whether the container holds the body at this pose, and every other body is proved or solved to be separated from it.
+    /// Whether the container holds the body at this pose, and every other body is proved or solved to be separated from
+    /// it.
     pub fn fits(&mut self, pose: &Pose) -> bool {
         if !self.pile.container.holds(self.particle, pose) {
             return false;

@@ -1,9 +1,9 @@
 //! A place as low as it gets: a body falls from above the pile, and then walks downwards at random.
 //!
-//! The walk minimises the height of the centre subject to "fits": a move is a step of random direction, never upwards, half of
-//! them with a turn. A move that fits is made. Steps grow with success and shrink with failure, such that one move in
-//! five is made (Rechenberg's rule), and the walk ends when they have become short. Whether two bodies pass through each
-//! other on the way does not matter, but for where they come to rest.
+//! The walk minimises the height of the centre subject to "fits": a move is a step of random direction, never upwards,
+//! half of them with a turn. A move that fits is made. Steps grow with success and shrink with failure, such that one
+//! move in five is made (Rechenberg's rule), and the walk ends when they have become short. Whether two bodies pass
+//! through each other on the way does not matter, but for where they come to rest.
 
 use crate::packing::pile::{Pile, Trial};
 use crate::packing::scattered::placed;

@@ -60,8 +60,8 @@ impl Sizes {
 
     /// From a grading curve: rows of a size and the share of the mass in bodies below it, linear in between.
     ///
-    /// Between the sizes a and b the mass is spread evenly over size, so that by number the density is as size⁻³, and a share
-    /// m of the mass is m/(b−a) ∫ size⁻³ = m (a+b)/(2 a² b²) of the number, but for a factor.
+    /// Between the sizes a and b the mass is spread evenly over size, so that by number the density is as size⁻³, and a
+    /// share m of the mass is m/(b−a) ∫ size⁻³ = m (a+b)/(2 a² b²) of the number, but for a factor.
     ///
     /// # Errors
     /// Rows whose sizes do not grow, or that do not grow from 0 to 1.

@@ -34,8 +34,8 @@ struct Measured<'a> {
     inner: f64,
 }
 
-/// Least share by which a body is enlarged while it is packed: as far apart the finished bodies are, so that no other rounding
-/// of their planes makes them overlap.
+/// Least share by which a body is enlarged while it is packed: as far apart the finished bodies are, so that no other
+/// rounding of their planes makes them overlap.
 const LEAST_ENLARGEMENT: f64 = 1e-6;
 
 /// The golden ratio less 1: its multiples fill [0, 1) more evenly than random numbers.

@@ -26,15 +26,16 @@ pub(crate) struct Body<'a> {
     sphere_weight: f64,
 }
 
-/// Bounds, in units of ε·length, on the rounding of a point as a body sees it and of n·y in n·y − d: in the axes of B, and in
-/// those of A, whose rotation is rounded (docs/theory.md, "Rounding"). That of d is less than ε·|d| in either.
+/// Bounds, in units of ε·length, on the rounding of a point as a body sees it and of n·y in n·y − d: in the axes of B,
+/// and in those of A, whose rotation is rounded (docs/theory.md, "Rounding"). That of d is less than ε·|d| in either.
 const IN_B: f64 = 4.0;
 const IN_A: f64 = 30.0;
 
 /// The rounding of the centre of A, relative to its length, is at most this share of [`IN_A`].
 const OF_CENTRE: f64 = 0.5;
 
-/// Bound on the rounding of a point as A sees it, at this distance from the centre of A, which is so far from that of B.
+/// Bound on the rounding of a point as A sees it, at this distance from the centre of A, which is so far from that of
+/// B.
 pub(crate) fn shift_in_a(length: f64, centre: f64) -> f64 {
     IN_A * f64::EPSILON * (length + OF_CENTRE * centre)
 }
@@ -187,7 +188,8 @@ impl<'a> Body<'a> {
         q.pull * blur + q.gradient.norm() * point.shift + second + self.rounding_of_value(q.value, q.count)
     }
 
-    /// What a shift and the blur of so many planes do to S in second order. A plane that is left out at a depth of one blur may be on by two.
+    /// What a shift and the blur of so many planes do to S in second order. A plane that is left out at a depth of one
+    /// blur may be on by two.
     #[inline]
     pub fn second_order(&self, planes: f64, shift: f64, blur: f64) -> f64 {
         4.0 * planes * self.plane_weight() * blur * blur + self.sphere_weight * shift * shift
@@ -216,7 +218,8 @@ impl<'a> Body<'a> {
         self.sphere_weight
     }
 
-    /// 2w with the weight w of the planes, 1/length²: times |n|² it is the curvature that a plane gives S across itself.
+    /// 2w with the weight w of the planes, 1/length²: times |n|² it is the curvature that a plane gives S across
+    /// itself.
     pub fn plane_curvature(&self) -> f64 {
         2.0 * self.plane_weight()
     }
@@ -232,7 +235,8 @@ impl<'a> Body<'a> {
         2.0 * self.sphere_weight
     }
 
-    /// Bound on how fast the shadow sphere's share of S changes with its centre where S is `value`: 2m|y| with m|y|² ≤ S.
+    /// Bound on how fast the shadow sphere's share of S changes with its centre where S is `value`: 2m|y| with m|y|² ≤
+    /// S.
     #[inline]
     pub fn sphere_slope(&self, value: f64) -> f64 {
         2.0 * (self.sphere_weight * larger(value, 0.0)).sqrt()

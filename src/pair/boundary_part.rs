@@ -1,8 +1,8 @@
 //! A plane, an edge or a corner of a boundary: the set on which the point of a contact lies, with its own frame.
 //!
-//! In its frame a plane is z = 0, an edge the x axis and a corner the origin, so that a point of it has the first two, the first
-//! or none of its coordinates. The origin is the point that is nearest to the centre of the particle: coordinates are no longer
-//! than the particle, wherever the scene lies.
+//! In its frame a plane is z = 0, an edge the x axis and a corner the origin, so that a point of it has the first two,
+//! the first or none of its coordinates. The origin is the point that is nearest to the centre of the particle:
+//! coordinates are no longer than the particle, wherever the scene lies.
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
@@ -17,10 +17,11 @@ use std::cell::OnceCell;
 pub(crate) enum BoundaryPart {
     /// A plane through a point, by its unit normal and by a normal of any length that is exact.
     Plane { point: Vector3<f64>, normal: Vector3<f64>, given: Vector3<f64> },
-    /// The plane of three points, which have this unit normal. The sides at the first have a sine of 1/`condition` between them.
+    /// The plane of three points, which have this unit normal. The sides at the first have a sine of 1/`condition`
+    /// between them.
     Inside { vertices: [Vector3<f64>; 3], normal: Vector3<f64>, condition: f64 },
-    /// The line through two points of a triangle with this third one. They come in an order of their own, so that all triangles that share
-    /// an edge find the same bits.
+    /// The line through two points of a triangle with this third one. They come in an order of their own, so that all
+    /// triangles that share an edge find the same bits.
     Edge { ends: [Vector3<f64>; 2], third: Vector3<f64> },
     /// A vertex of a triangle with these two others.
     Corner { at: Vector3<f64>, others: [Vector3<f64>; 2] },
@@ -33,7 +34,8 @@ pub(crate) struct PartFrame {
     pub rotation: Matrix3<f64>,
     /// Centre of the particle in the frame of the part.
     pub centre: Vector3<f64>,
-    /// Length that the rounding of the place of the part is proportional to: that of the farthest point by which it is given.
+    /// Length that the rounding of the place of the part is proportional to: that of the farthest point by which it is
+    /// given.
     pub lengths: f64,
 }
 
@@ -66,8 +68,8 @@ impl BoundaryPart {
         }
     }
 
-    /// What its place is rounded by in numbers of 32 digits, relative to the lengths by which it is given: the rounding of two sides turns
-    /// their plane.
+    /// What its place is rounded by in numbers of 32 digits, relative to the lengths by which it is given: the rounding
+    /// of two sides turns their plane.
     pub fn wide_condition(&self) -> f64 {
         if let Self::Inside { condition, .. } = self { 1.0 + 2.0 * condition } else { 1.0 }
     }
@@ -120,8 +122,8 @@ impl BoundaryPart {
         WideFrame { axes, centre: centre.into() }
     }
 
-    /// Bound on the rounding of [`PlacedPart::descent`] in doubles, for a gradient of this length: the direction from an edge into a narrow
-    /// triangle is a small difference of long sides.
+    /// Bound on the rounding of [`PlacedPart::descent`] in doubles, for a gradient of this length: the direction from
+    /// an edge into a narrow triangle is a small difference of long sides.
     pub fn descent_rounding(&self, gradient: f64) -> f64 {
         let Self::Edge { ends: [from, to], third } = self else { return OF_DIRECTION * gradient };
         let (along, side) = (unit(&(to - from)), third - from);
@@ -171,8 +173,8 @@ impl<'a> PlacedPart<'a> {
         self.frame.rotation.tr_mul(&self.pose.rotate(x)) + self.frame.centre
     }
 
-    /// How steeply a function with this gradient, frame of the part, falls at most from the part into the triangle that it is part
-    /// of; negative where it rises by at least so much. `None` for a part that is all of its boundary.
+    /// How steeply a function with this gradient, frame of the part, falls at most from the part into the triangle that
+    /// it is part of; negative where it rises by at least so much. `None` for a part that is all of its boundary.
     pub fn descent(&self, gradient: &Vector3<f64>) -> Option<f64> {
         let towards = |v: &Vector3<f64>, from: &Vector3<f64>| self.frame.rotation.tr_mul(&(v - from));
         self.part.steepest(towards, |v| v.normalize(), |side| -gradient.dot(side), |side| *side)
@@ -195,8 +197,8 @@ impl<'a> PlacedPart<'a> {
         ends.map(|end| axes[0].dot(&difference(&end, self.pose.position())).rounded())
     }
 
-    /// Distances of a point of a plane, in its frame, from the edges of a triangle there; negative beyond. Of 32 digits before they are
-    /// rounded.
+    /// Distances of a point of a plane, in its frame, from the edges of a triangle there; negative beyond. Of 32 digits
+    /// before they are rounded.
     pub fn wide_from_edges(&self, vertices: &[Vector3<f64>; 3], x: &Vector2<f64>) -> [f64; 3] {
         let WideFrame { axes, centre } = self.wide_frame();
         let from_centre = wide(&x.push(0.0)) - centre;
@@ -212,12 +214,12 @@ impl<'a> PlacedPart<'a> {
     }
 }
 
-/// Bound on the rounding of a side in the frame of a part, relative to its length: that of a difference, and of a product with the
-/// rounded axes.
+/// Bound on the rounding of a side in the frame of a part, relative to its length: that of a difference, and of a
+/// product with the rounded axes.
 const OF_DIRECTION: f64 = 8.0 * f64::EPSILON;
 
-/// The steepest fall between two sides with these falls along them, where the sum of their unit vectors is so long: a direction
-/// between them is a sum of both with shares that add up to at least 1, and to 2 over that length at most.
+/// The steepest fall between two sides with these falls along them, where the sum of their unit vectors is so long: a
+/// direction between them is a sum of both with shares that add up to at least 1, and to 2 over that length at most.
 fn into_corner(falls: [f64; 2], sum: f64) -> f64 {
     let most = larger(falls[0], falls[1]);
     if most > 0.0 { most * 2.0 / sum } else { most }
@@ -300,7 +302,8 @@ mod tests {
         let pose = Pose::at([0.3, 0.2, 0.9]).unwrap();
         let edge = BoundaryPart::Edge { ends: [a, b], third: c };
         let corner = BoundaryPart::Corner { at: a, others: [b, c] };
-        // Edge a-b: inwards is y. Corner a: the quarter between x and y, whose steepest is at most √2 times that of a side.
+        // Edge a-b: inwards is y. Corner a: the quarter between x and y, whose steepest is at most √2 times that of a
+        // side.
         for (falls, of_edge, of_corner) in [
             ([0.3, -2.0, 5.0], -2.0, 0.3 * 2f64.sqrt()),
             ([-1.0, -2.0, 5.0], -2.0, -1.0),

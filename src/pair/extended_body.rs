@@ -1,8 +1,8 @@
 //! A body in numbers of 32 digits, about a point of reference.
 //!
-//! Everything is taken from the data as the caller gave it: the rotations from quaternion or angle, the centre from both positions, the
-//! weights from r, k and R. The depth of a plane at x₀ + δ is e + n·δ, where e = n·x₀ − d is found once: whatever e has lost to
-//! rounding is a shift of the plane, the same for every δ.
+//! Everything is taken from the data as the caller gave it: the rotations from quaternion or angle, the centre from
+//! both positions, the weights from r, k and R. The depth of a plane at x₀ + δ is e + n·δ, where e = n·x₀ − d is found
+//! once: whatever e has lost to rounding is a shift of the plane, the same for every δ.
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::line::Line;
@@ -34,8 +34,8 @@ fn rounding_of_sums(count: u32) -> f64 {
 
 /// Which side a plane is on at a point where its depth cannot be told from 0.
 ///
-/// At zero depth S and its gradient are the same either way, and both curvatures are one-sided second derivatives: a step with the plane
-/// off has length 0 if it leads to the other side.
+/// At zero depth S and its gradient are the same either way, and both curvatures are one-sided second derivatives: a
+/// step with the plane off has length 0 if it leads to the other side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Undecided {
     /// As the sign of its depth says.
@@ -66,7 +66,8 @@ impl Plane {
         }
     }
 
-    /// The depth after a step, in the arithmetic of the model: the rounding of the depth before it is a shift of the plane.
+    /// The depth after a step, in the arithmetic of the model: the rounding of the depth before it is a shift of the
+    /// plane.
     fn after(&self, depth: DoubleDouble, v: &Wide) -> (f64, f64) {
         let change = self.normal.dot(v);
         let doubt = DEPTH_AFTER * DoubleDouble::UNIT * (depth.rounded().abs() + self.length * rounded(v).norm());
@@ -115,8 +116,8 @@ pub(crate) struct WideQuadratic {
     pub hessian: Symmetric<DoubleDouble>,
 }
 
-/// What enters the bounds of a solution: S, ∇S in the solver's frame, 2w Σ depth, the number of planes on, and the bounds on the
-/// rounding of the depths and on the turn of ∇S.
+/// What enters the bounds of a solution: S, ∇S in the solver's frame, 2w Σ depth, the number of planes on, and the
+/// bounds on the rounding of the depths and on the turn of ∇S.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct WideValue {
     pub value: DoubleDouble,
@@ -209,8 +210,8 @@ impl<'a> ExtendedBody<'a> {
         });
     }
 
-    /// Calls `visit` with the normal and the depth of each plane that is on at x₀ + δ; the depth is 0 where it is so by `undecided`
-    /// alone. Gives a lower bound of |depth| over the others.
+    /// Calls `visit` with the normal and the depth of each plane that is on at x₀ + δ; the depth is 0 where it is so by
+    /// `undecided` alone. Gives a lower bound of |depth| over the others.
     fn visit_active(&self, delta: &Wide, undecided: Undecided, mut visit: impl FnMut(&Wide, DoubleDouble)) -> f64 {
         let (quick, mut clear) = (rounded(delta), f64::INFINITY);
         let length = quick.norm();
@@ -235,7 +236,8 @@ impl<'a> ExtendedBody<'a> {
         self.visit_active(delta, undecided, |n, _| visit(rounded(n)));
     }
 
-    /// S at x₀ + δ with derivatives in `axes` (columns, solver frame; `metric` is the product of their transpose with them).
+    /// S at x₀ + δ with derivatives in `axes` (columns, solver frame; `metric` is the product of their transpose with
+    /// them).
     pub fn quadratic(
         &self,
         delta: &Wide,
@@ -283,8 +285,8 @@ impl<'a> ExtendedBody<'a> {
         })
     }
 
-    /// Of the planes that are on where their depth cannot be told from 0, the one whose depth is most negative after a step, and by how
-    /// much times |n|: its multiplier would have to be.
+    /// Of the planes that are on where their depth cannot be told from 0, the one whose depth is most negative after a
+    /// step, and by how much times |n|: its multiplier would have to be.
     pub fn most_negative(&self, delta: &Wide, v: &Wide) -> Option<(usize, f64)> {
         let length = rounded(delta).norm();
         let mut most = None;

@@ -1,10 +1,11 @@
 //! Planes of two particles in balance: the shortest vector in the convex hull of their gradients, and what that proves.
 //!
-//! Let g_i = ρ n_i be the gradients of planes of both particles, with a factor ρ for each particle, and c_i ≥ 0 shares. In a particle
-//! Σ c_i ρ (n_i·x − d_i), over any of its planes, is at most ρ·r/√(1−k) times the root of the sum of c_i², since w Σ⟨n_i·x − d_i⟩² is at most 1. The sum
-//! over the planes of both has the slope y = Σ c_i g_i. Where that is 0 or nearly, the sum is the same everywhere, and no point lies in
-//! both particles if it is more than what both allow. Of two points at a distance d, one in A and one in B, the sum at either exceeds that by at most d
-//! times the slope of the other one's planes.
+//! Let g_i = ρ n_i be the gradients of planes of both particles, with a factor ρ for each particle, and c_i ≥ 0 shares.
+//! In a particle Σ c_i ρ (n_i·x − d_i), over any of its planes, is at most ρ·r/√(1−k) times the root of the sum of
+//! c_i², since w Σ⟨n_i·x − d_i⟩² is at most 1. The sum over the planes of both has the slope y = Σ c_i g_i. Where that
+//! is 0 or nearly, the sum is the same everywhere, and no point lies in both particles if it is more than what both
+//! allow. Of two points at a distance d, one in A and one in B, the sum at either exceeds that by at most d times the
+//! slope of the other one's planes.
 
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
@@ -131,8 +132,8 @@ impl Hull {
         hull
     }
 
-    /// What the planes prove, if that the particles share no point, from n·x − d of each at a point x that is so `far` from both centres. `rho` are
-    /// the factors of the gradients.
+    /// What the planes prove, if that the particles share no point, from n·x − d of each at a point x that is so `far`
+    /// from both centres. `rho` are the factors of the gradients.
     #[inline(always)]
     pub fn proof(
         &self,
@@ -172,12 +173,13 @@ impl Hull {
     }
 }
 
-/// A whole number tells two planes: each by its place, that of a plane of B with [`MAX_PLANES`] added, or by this where there is none; the second
-/// one times [`SECOND`].
+/// A whole number tells two planes: each by its place, that of a plane of B with [`MAX_PLANES`] added, or by this where
+/// there is none; the second one times [`SECOND`].
 const NO_PLANE: usize = 2 * MAX_PLANES;
 const SECOND: usize = 4 * MAX_PLANES;
 
-/// Body (0, 1) and place of the planes of [`Hull::places`], whatever the numbers are, as far as the particles have them; and how many.
+/// Body (0, 1) and place of the planes of [`Hull::places`], whatever the numbers are, as far as the particles have
+/// them; and how many.
 #[inline(always)]
 fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize, usize); 4], usize) {
     // What is negative or not a number becomes 0.
@@ -193,8 +195,8 @@ fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize,
     (planes, count)
 }
 
-/// What planes that were in balance ([`Hull::places`]) prove at these poses, whichever they are; x is any point between the particles, local
-/// frame of B.
+/// What planes that were in balance ([`Hull::places`]) prove at these poses, whichever they are; x is any point between
+/// the particles, local frame of B.
 #[inline(always)]
 pub(crate) fn still_balanced(
     (a, pose_a): (&Particle, &Pose),
@@ -227,7 +229,8 @@ mod tests {
     use crate::pair::scattered;
     use crate::{Kind, PairState, Settings, detect};
 
-    /// Each plane that joins shortens y, which has the same product with all that are left: none is nearer to the origin.
+    /// Each plane that joins shortens y, which has the same product with all that are left: none is nearer to the
+    /// origin.
     #[test]
     fn the_hull_gives_the_shortest_vector() {
         let mut joined = 0;
@@ -258,8 +261,8 @@ mod tests {
         assert!(joined > 300, "{joined}");
     }
 
-    /// Two edges of cubes that cross at right angles: each reaches √2·d + r from its centre. From nothing and from memory, at the distance and
-    /// after a turn.
+    /// Two edges of cubes that cross at right angles: each reaches √2·d + r from its centre. From nothing and from
+    /// memory, at the distance and after a turn.
     #[test]
     fn edges_know_their_distance() {
         let cube = Particle::cube(0.4, 0.1, 0.0, 0.0);

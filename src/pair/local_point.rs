@@ -12,7 +12,8 @@ pub(crate) struct LocalPoint {
     pub y: Vector3<f64>,
     /// Bound on the rounding of this point, length.
     pub shift: f64,
-    /// Bound on the rounding of n·y − d of every plane that can be active here, from that of the point and of the offset.
+    /// Bound on the rounding of n·y − d of every plane that can be active here, from that of the point and of the
+    /// offset.
     ///
     /// A plane is active if n·y − d > −blur: a stiff plane carries its share of the force with a depth below rounding.
     pub blur: f64,
@@ -33,7 +34,8 @@ impl LocalPoint {
         excess > -self.blur && (self.count == 0 || excess > self.blur || !self.dropped().contains(&(place as u16)))
     }
 
-    /// Excludes the plane at this place from the active set while its n·y − d is within the blur; without effect when too many are excluded.
+    /// Excludes the plane at this place from the active set while its n·y − d is within the blur; without effect when
+    /// too many are excluded.
     pub fn drop(&mut self, place: usize) {
         if let Some(slot) = self.dropped.get_mut(usize::from(self.count)) {
             // Places fit: a particle has no more planes than `MAX_PLANES`.

@@ -7,16 +7,16 @@
 //! S_A(x) = w Σ ⟨n·y − d⟩² + m|y|²
 //! ```
 //!
-//! The positions are subtracted before anything is rotated, so that a pair far from the origin of the world loses no more than the
-//! rounding of its own positions. A plane is *active* where n·y − d > −blur; *blur* bounds the rounding of n·y − d, *shift* that of y. Sections
-//! 4.2 and 4.3 of docs/theory.md derive both, 4.9 the same for 32 digits.
+//! The positions are subtracted before anything is rotated, so that a pair far from the origin of the world loses no
+//! more than the rounding of its own positions. A plane is *active* where n·y − d > −blur; *blur* bounds the rounding
+//! of n·y − d, *shift* that of y. Sections 4.2 and 4.3 of docs/theory.md derive both, 4.9 the same for 32 digits.
 //!
-//! A part of a boundary (a plane, an edge, a corner) takes the place of B as a body with S_B = 0, in whose frame a point has two, one or no
-//! coordinates (section 8). At k = 0, S may be least on a whole patch; m is then raised to k₀/ρ², the regularisation of section 2, and each
-//! body states what that adds to S.
+//! A part of a boundary (a plane, an edge, a corner) takes the place of B as a body with S_B = 0, in whose frame a
+//! point has two, one or no coordinates (section 8). At k = 0, S may be least on a whole patch; m is then raised to
+//! k₀/ρ², the regularisation of section 2, and each body states what that adds to S.
 //!
-//! Before a pair is solved, tests of one side are tried: each proves that the bodies share no point, with a lower bound on their distance, or
-//! says nothing (section 4.8). Each file uses only those above it:
+//! Before a pair is solved, tests of one side are tried: each proves that the bodies share no point, with a lower bound
+//! on their distance, or says nothing (section 4.8). Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

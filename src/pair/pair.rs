@@ -6,8 +6,8 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// A pair seen from B: every solver works in the local frame of B. In place of B may stand a part of a boundary, on which a point has
-/// fewer coordinates.
+/// A pair seen from B: every solver works in the local frame of B. In place of B may stand a part of a boundary, on
+/// which a point has fewer coordinates.
 ///
 /// The difference of the two positions is taken before anything is rotated, so that a pair far
 /// from the world origin loses no more than the rounding of its own positions.
@@ -66,8 +66,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// From the centre of A to a point, world axes, given the way there from the centre of B: the difference of the positions is not
-    /// rounded, so that the two differ by that of the positions to the rounding of this one.
+    /// From the centre of A to a point, world axes, given the way there from the centre of B: the difference of the
+    /// positions is not rounded, so that the two differ by that of the positions to the rounding of this one.
     #[inline(always)]
     pub(crate) fn branch_a(&self, branch_b: &Vector3<f64>) -> Vector3<f64> {
         match self.given {
@@ -112,13 +112,16 @@ mod tests {
             log_size in -4.0..4.0_f64,
             closest: bool,
         ) {
-            let (a, b) = (Particle::cube(0.4, 0.1, 0.02, 1.2), Particle::cube(0.4, 0.1, 0.02, 1.2).scaled(10_f64.powf(log_size)).unwrap());
+            let a = Particle::cube(0.4, 0.1, 0.02, 1.2);
+            let b = a.scaled(10_f64.powf(log_size)).unwrap();
             let from = 10_f64.powf(log_far) * Vector3::from(far);
             prop_assume!(Vector3::from(towards).norm() > 0.1);
             let to = from + 0.5 * (a.bounding_radius() + b.bounding_radius()) * Vector3::from(towards).normalize();
-            let (pose_a, pose_b) = (Pose::new(from.into(), [1.0, 0.3, far[0], far[1]]).unwrap(), Pose::new(to.into(), [0.5, far[2], 0.2, 0.1]).unwrap());
+            let pose_a = Pose::new(from.into(), [1.0, 0.3, far[0], far[1]]).unwrap();
+            let pose_b = Pose::new(to.into(), [0.5, far[2], 0.2, 0.1]).unwrap();
             let formulation = if closest { Formulation::Closest } else { Formulation::Midway };
-            let contact = detect(&a, &pose_a, &b, &pose_b, &Settings { formulation, ..Settings::default() }, None).unwrap();
+            let settings = Settings { formulation, ..Settings::default() };
+            let contact = detect(&a, &pose_a, &b, &pose_b, &settings, None).unwrap();
             if contact.kind == Kind::Overlapping {
                 for i in 0..3 {
                     let between = DoubleDouble::sum(pose_b.position()[i], -pose_a.position()[i]);

@@ -6,13 +6,13 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::Vector3;
 
-/// The state of one ordered pair (A, B), of two particles or of one and a boundary: the last solution, from which the next call starts, and, with [`crate::Settings::carry_tolerance`]
-/// above 0, both potentials as quadratics about the last contact, from which the next contact may follow without a solution from the planes.
-/// Empty by default.
+/// The state of one ordered pair (A, B), of two particles or of one and a boundary: the last solution, from which the
+/// next call starts, and, with [`crate::Settings::carry_tolerance`] above 0, both potentials as quadratics about the
+/// last contact, from which the next contact may follow without a solution from the planes. Empty by default.
 ///
-/// The solution is a hint and can be saved ([`Self::into_raw`]): any content, even of another pair, leaves the answer within its gap.
-/// The quadratics are none, and are never saved: they are written by the library only, and used for the two particles for which they
-/// were written.
+/// The solution is a hint and can be saved ([`Self::into_raw`]): any content, even of another pair, leaves the answer
+/// within its gap. The quadratics are none, and are never saved: they are written by the library only, and used for the
+/// two particles for which they were written.
 ///
 /// ```
 /// use potential_particles::{Flags, PairState, Particle, Pose, Settings, detect};
@@ -47,8 +47,9 @@ pub(crate) struct Remembered {
     pub overlapping: bool,
     /// Whether planes in balance kept them apart.
     pub balanced: bool,
-    /// Where planes in balance kept them apart: which ones, by [`crate::pair::hull::Hull::places`]. Else factors from the λ of P1 and P2 that
-    /// `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
+    /// Where planes in balance kept them apart: which ones, by [`crate::pair::hull::Hull::places`]. Else factors from
+    /// the λ of P1 and P2 that `solver::closest::from_between` predicts to theirs; used where the products are in the
+    /// range of λ.
     pub closest: [f64; 2],
 }
 
@@ -80,15 +81,16 @@ pub(crate) struct KnownPiece {
     pub value: f64,
     pub gradient: Vector3<f64>,
     pub hessian: Symmetric,
-    /// Distance from there within which no plane switches and points are rounded by no more than three times as much, length.
+    /// Distance from there within which no plane switches and points are rounded by no more than three times as much,
+    /// length.
     pub reach: f64,
 }
 
 /// A guess of λ lies in this range: beyond it one particle's weight is lost in rounding altogether.
 pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
-/// A solution lies no further from the centre of B than that of A does and so many times both bounding radii: midway is within
-/// both bodies where they overlap, and near the line of centres where they do not.
+/// A solution lies no further from the centre of B than that of A does and so many times both bounding radii: midway is
+/// within both bodies where they overlap, and near the line of centres where they do not.
 const REACH: f64 = 8.0;
 
 impl PairState {
@@ -98,14 +100,16 @@ impl PairState {
     /// The sixth number where planes in balance kept the pair apart; 1 where it overlapped.
     const BALANCED: f64 = 2.0;
 
-    /// With a remembered solution, from the eight numbers of [`Self::into_raw`]. Whatever is none is as good as an empty state.
+    /// With a remembered solution, from the eight numbers of [`Self::into_raw`]. Whatever is none is as good as an
+    /// empty state.
     pub fn from_raw(solution: [f64; 8]) -> Self {
         Self { solution, last_contact: LastContact::default() }
     }
 
-    /// The remembered solution as eight numbers: 1 if there is one, else 0; x, y, z of the midway point in the local frame of B, length;
-    /// λ = u/(1−u); 1 if the pair overlapped, 2 if planes kept it apart, else 0; factors on λ for P1 and P2, or which planes. Of a boundary: x, y, z is the point of its plane, in the
-    /// local frame of the particle, and λ and the factors are 1.
+    /// The remembered solution as eight numbers: 1 if there is one, else 0; x, y, z of the midway point in the local
+    /// frame of B, length; λ = u/(1−u); 1 if the pair overlapped, 2 if planes kept it apart, else 0; factors on λ for
+    /// P1 and P2, or which planes. Of a boundary: x, y, z is the point of its plane, in the local frame of the
+    /// particle, and λ and the factors are 1.
     pub fn into_raw(self) -> [f64; 8] {
         self.solution
     }
@@ -124,8 +128,8 @@ impl PairState {
         usable.then(|| self.unpacked())
     }
 
-    /// Where the last search on the plane of a boundary ended, in the local frame of the particle: any place that is not too far away
-    /// to tell something.
+    /// Where the last search on the plane of a boundary ended, in the local frame of the particle: any place that is
+    /// not too far away to tell something.
     pub(crate) fn remembered_on_boundary(&self, a: &Particle) -> Option<Vector3<f64>> {
         let [filled, x, y, z, ..] = self.solution;
         let reach = smaller(REACH * a.bounding_radius(), f64::MAX);
@@ -150,8 +154,8 @@ impl PairState {
     }
 }
 
-/// What `solve` gives from what is remembered, if anything is; where that fails, what it gives without. What is remembered may be of any
-/// other pair, and no start leads to the answer from everywhere.
+/// What `solve` gives from what is remembered, if anything is; where that fails, what it gives without. What is
+/// remembered may be of any other pair, and no start leads to the answer from everywhere.
 #[inline(always)]
 pub(crate) fn from_memory_or_anew<T, E>(remembers: bool, mut solve: impl FnMut(bool) -> Result<T, E>) -> Result<T, E> {
     match solve(remembers) {
@@ -201,7 +205,8 @@ mod tests {
         let both = warm.gap + cold.gap + 4.0 * f64::EPSILON * cold.s;
         assert!(warm.kind == cold.kind || (cold.s - 1.0).abs() <= both.min(1e-9), "{warm:?}\n{cold:?}");
         if warm.kind == Kind::Overlapping && cold.kind == Kind::Overlapping {
-            // A carried point is known to the carry tolerance, and s rises by 1/r along the normal of the sharpest body.
+            // A carried point is known to the carry tolerance, and s rises by 1/r along the normal of the sharpest
+            // body.
             let most = if warm.flags.contains(crate::Flags::CARRIED) { 1e-9 / 1e-4 } else { 1e-6 };
             assert!((warm.s - cold.s).abs() <= both && warm.gap <= most + 10.0 * cold.gap, "{warm:?}\n{cold:?}");
         }

@@ -1,4 +1,5 @@
-//! Separation tests: each proves that two particles share no point, with a lower bound on their distance, or proves nothing.
+//! Separation tests: each proves that two particles share no point, with a lower bound on their distance, or proves
+//! nothing.
 
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
@@ -8,7 +9,8 @@ use crate::particle::potential;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// Bound on the rounding of the sums below, relative to the lengths in them: 45ε, of which they need 40 (docs/theory.md, "Rounding").
+/// Bound on the rounding of the sums below, relative to the lengths in them: 45ε, of which they need 40
+/// (docs/theory.md, "Rounding").
 pub(crate) const MARGIN: f64 = 1e-14;
 
 /// A proof that two particles share no point.
@@ -27,8 +29,8 @@ impl Apart {
     }
 }
 
-/// Lower bound on the distance of two particles for which midway has s ≥ `low`. s is 1 on the surface and has the Lipschitz constant 1/ℓ, so that at
-/// the point that divides a gap d as ℓ_A : ℓ_B both s are at most 1 + d/(ℓ_A + ℓ_B).
+/// Lower bound on the distance of two particles for which midway has s ≥ `low`. s is 1 on the surface and has the
+/// Lipschitz constant 1/ℓ, so that at the point that divides a gap d as ℓ_A : ℓ_B both s are at most 1 + d/(ℓ_A + ℓ_B).
 pub(crate) fn distance_of_scale(a: &Particle, b: &Particle, low: f64) -> f64 {
     larger(low - 1.0, 0.0) * (a.slope_length + b.slope_length) * (1.0 - MARGIN)
 }
@@ -97,9 +99,9 @@ pub(crate) fn still_apart(
 
 /// How far `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`, if it does.
 ///
-/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried and its corners, which are tighter, are tried against a face that its
-/// centre lies far beyond: any face proves what it does. `to_other` takes
-/// directions from the frame of `host` to that of `other`.
+/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried and its corners, which are tighter, are tried against
+/// a face that its centre lies far beyond: any face proves what it does. `to_other` takes directions from the frame of
+/// `host` to that of `other`.
 fn beyond_a_face(
     host: &Particle,
     centre: &Vector3<f64>,
@@ -107,7 +109,8 @@ fn beyond_a_face(
     to_other: &Matrix3<f64>,
     distance: f64,
 ) -> Option<f64> {
-    // No face lies nearer to the centre of `host` than the first of these, and `other` reaches as far as the second all around.
+    // No face lies nearer to the centre of `host` than the first of these, and `other` reaches as far as the second all
+    // around.
     if host.is_sphere() || distance <= host.bounds.nearest + other.bounds.inner {
         return None;
     }

@@ -1,8 +1,9 @@
 //! A polyhedron, a ball and a box that hold a particle: what the cheap tests rely on.
 //!
-//! They are estimated, not proved: corners are exact to the relative error [`SLACK`] if the three normals that meet there
-//! have a condition number κ ≤ 1e8 (the error of a 3×3 solve by cofactors is some 10·κ·ε), and [`MARGIN`] is ten times
-//! as much, for that and for merged corners. Three planes closer to a common direction than this may give a corner that is lost.
+//! They are estimated, not proved: corners are exact to the relative error [`SLACK`] if the three normals that meet
+//! there have a condition number κ ≤ 1e8 (the error of a 3×3 solve by cofactors is some 10·κ·ε), and [`MARGIN`] is ten
+//! times as much, for that and for merged corners. Three planes closer to a common direction than this may give a
+//! corner that is lost.
 
 use crate::linalg::number::{larger, smaller};
 use crate::particle::linear_program;
@@ -26,7 +27,8 @@ pub(crate) struct Bounds {
     /// min |n_i| of all planes, and of those that are active anywhere within [`NEARBY`] times the radius.
     pub shortest_normal: f64,
     shortest_nearby: f64,
-    /// Radius of a ball about the origin within all planes, and of one within all n_i·x ≤ d_i + r/√(1−k); 0 where there is none that is known.
+    /// Radius of a ball about the origin within all planes, and of one within all n_i·x ≤ d_i + r/√(1−k); 0 where there
+    /// is none that is known.
     pub inner: f64,
     pub nearest: f64,
     /// How far beyond d_i the particle can reach along n_i: r/√(1−k); infinite for k = 1.
@@ -50,21 +52,22 @@ pub(crate) struct Extent {
 /// Most planes whose corners are enumerated; further ones only make the polyhedron smaller.
 const MOST_FACES: usize = 24;
 
-/// Relative error of a corner. A corner is kept when a face cuts off less than this, which makes the polyhedron larger at
-/// most.
+/// Relative error of a corner. A corner is kept when a face cuts off less than this, which makes the polyhedron larger
+/// at most.
 const SLACK: f64 = 1e-6;
 
 /// Half the edge of the largest cube considered, length: the square of its diagonal is still finite.
 const LARGEST: f64 = 1e150;
 
-/// Half the edge of the cube tried first, in distances of the farthest face: the corners of few particles lie beyond it.
+/// Half the edge of the cube tried first, in distances of the farthest face: the corners of few particles lie beyond
+/// it.
 const WIDE: f64 = 8.0;
 
 /// Distance in radii within which planes count as nearby.
 const NEARBY: f64 = 4.0;
 
-/// Factor by which bounds are enlarged. It covers the error of a corner and the corner into which it was merged, each at
-/// most [`SLACK`].
+/// Factor by which bounds are enlarged. It covers the error of a corner and the corner into which it was merged, each
+/// at most [`SLACK`].
 const MARGIN: f64 = 1.0 + 1e-5;
 
 impl Extent {
@@ -104,8 +107,8 @@ impl Bounds {
         let lengths = || planes.iter().map(|(n, _)| n.norm());
         let (least_offset, longest_normal) = (offsets().fold(f64::INFINITY, f64::min), lengths().fold(0.0, f64::max));
         let within = |offset: f64| if planes.is_empty() { 0.0 } else { offset.max(0.0) / longest_normal };
-        // Where the faces alone enclose the particle, {S ≤ s²} lies between those at d_i + s·r/√(1−k): for small r that grows
-        // far less than convexity of s allows. With a shadow sphere they do if no corner lies on the cube.
+        // Where the faces alone enclose the particle, {S ≤ s²} lies between those at d_i + s·r/√(1−k): for small r that
+        // grows far less than convexity of s allows. With a shadow sphere they do if no corner lies on the cube.
         let enclosed = !sphere_reach.is_finite() || farthest < 0.99 * half;
         let by_faces = if enclosed { face_reach / (least_offset + face_reach) } else { f64::INFINITY };
         // Its square is a weight of the solvers.
@@ -148,13 +151,14 @@ impl Bounds {
 
     /// Radius of a ball about the origin that holds {S ≤ level}, level ≥ 1.
     ///
-    /// s = √S is convex with s(0) < 1, so that along a ray it needs at most (s − s(0))/(1 − s(0)) times the distance to the
-    /// surface to reach s.
+    /// s = √S is convex with s(0) < 1, so that along a ray it needs at most (s − s(0))/(1 − s(0)) times the distance to
+    /// the surface to reach s.
     pub fn reach(&self, level: f64) -> f64 {
         self.radius * (1.0 + self.growth * (level.sqrt().max(1.0) - 1.0))
     }
 
-    /// Upper bound of max e·x over the particle, e of unit length: the lesser of those of the polyhedron and of the ball.
+    /// Upper bound of max e·x over the particle, e of unit length: the lesser of those of the polyhedron and of the
+    /// ball.
     pub fn support(&self, e: &Vector3<f64>) -> f64 {
         let farthest = self.corners.iter().map(|c| c.dot(e)).fold(f64::NEG_INFINITY, f64::max);
         (farthest + self.merged).min(self.radius)
@@ -188,13 +192,15 @@ impl Bounds {
         (lower, upper)
     }
 
-    /// Least |n| of a plane that may be active at a point. A short normal of a plane that is never reached does not count.
+    /// Least |n| of a plane that may be active at a point. A short normal of a plane that is never reached does not
+    /// count.
     pub fn shortest_normal_at(&self, y: &Vector3<f64>) -> f64 {
         let far = NEARBY * self.radius;
         if y.norm_squared() <= far * far { self.shortest_nearby } else { self.shortest_normal }
     }
 
-    /// Largest |d| of a plane that can be active within this distance of the origin: the rounding of others enters no sum.
+    /// Largest |d| of a plane that can be active within this distance of the origin: the rounding of others enters no
+    /// sum.
     #[inline]
     pub fn offset_within(&self, distance: f64) -> f64 {
         smaller(self.longest_offset, self.longest_normal * distance + larger(-self.least_offset, 0.0))
@@ -228,7 +234,8 @@ fn face(n: &Vector3<f64>, h: f64) -> Option<(Vector3<f64>, f64)> {
 
 /// Whether the planes (a, b, c, d) alone enclose a volume, without the shadow sphere.
 pub(super) fn planes_enclose(rows: &[[f64; 4]], dimensions: usize) -> bool {
-    // That depends on the normals alone, as long as a point is inside; so each plane is moved outwards until the origin is.
+    // That depends on the normals alone, as long as a point is inside; so each plane is moved outwards until the origin
+    // is.
     let outside = rows.iter().map(|row| -row[3]).fold(0.0, f64::max);
     let farthest = rows.iter().map(|row| row[3].abs()).fold(f64::MIN_POSITIVE, f64::max);
     let faces: Vec<_> =

@@ -1,18 +1,20 @@
-//! Which faces of a convex body are one: the rule for half-spaces, hulls, surfaces, polygons and the planes of a particle.
+//! Which faces of a convex body are one: the rule for half-spaces, hulls, surfaces, polygons and the planes of a
+//! particle.
 //!
-//! A face is part of a larger one if its corners lie within [`COPLANAR`] times the extent of the body below the plane of that one, and its normal is within
-//! 60° of that one's. The plane that remains supports the body: no corner lies above it, and each face is judged by its own corners, so that
-//! nothing accumulates over chains of faces. A body that lies within this distance of one of its faces is flat.
+//! A face is part of a larger one if its corners lie within [`COPLANAR`] times the extent of the body below the plane
+//! of that one, and its normal is within 60° of that one's. The plane that remains supports the body: no corner lies
+//! above it, and each face is judged by its own corners, so that nothing accumulates over chains of faces. A body that
+//! lies within this distance of one of its faces is flat.
 
 use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 
-/// Distance at which faces are one, as a share of the extent, the largest edge of the box about the body. The numbers of a binary .stl file are
-/// good to 6e-8.
+/// Distance at which faces are one, as a share of the extent, the largest edge of the box about the body. The numbers
+/// of a binary .stl file are good to 6e-8.
 pub(crate) const COPLANAR: f64 = 1e-6;
 
-/// Least cosine between the normals of faces that are one. The normal of a sliver is rounding, but lies between those of its neighbours, and so within
-/// 60° of one of them unless they meet in a sharp edge.
+/// Least cosine between the normals of faces that are one. The normal of a sliver is rounding, but lies between those
+/// of its neighbours, and so within 60° of one of them unless they meet in a sharp edge.
 const LEAST_COSINE: f64 = 0.5;
 
 /// A face of a convex body.
@@ -43,8 +45,8 @@ pub(crate) struct Distinct {
     pub plane_of: Vec<u32>,
 }
 
-/// The faces of a convex body with these corners that are distinct; `None` if the body is flat. `known`: the length to which the corners are known;
-/// faces that lie within it are one, too.
+/// The faces of a convex body with these corners that are distinct; `None` if the body is flat. `known`: the length to
+/// which the corners are known; faces that lie within it are one, too.
 pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<F>], known: f64) -> Option<Distinct> {
     let around = Around::new(corners.len(), faces);
     let within = (COPLANAR * extent(corners)).max(known);
@@ -90,8 +92,9 @@ pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<
     Some(found)
 }
 
-/// The planes that are distinct within a ball about the origin, in their order; normals of any length. Two planes are one if nowhere in the ball they are
-/// farther apart than [`COPLANAR`] times its radius; the first of them is kept. `None` if all are distinct.
+/// The planes that are distinct within a ball about the origin, in their order; normals of any length. Two planes are
+/// one if nowhere in the ball they are farther apart than [`COPLANAR`] times its radius; the first of them is kept.
+/// `None` if all are distinct.
 pub(crate) fn distinct_planes(planes: &[Plane], radius: f64) -> Option<Vec<Plane>> {
     let within = COPLANAR * radius;
     let unit = |plane: &Plane| {
@@ -99,7 +102,8 @@ pub(crate) fn distinct_planes(planes: &[Plane], radius: f64) -> Option<Vec<Plane
         (plane.normal / length, plane.offset / length)
     };
     let units: Vec<_> = planes.iter().map(unit).collect();
-    // Planes of nearly the same normal are neighbours in this order; the direction is no axis of usual solids, so that few others are.
+    // Planes of nearly the same normal are neighbours in this order; the direction is no axis of usual solids, so that
+    // few others are.
     let along = |i: usize| units[i].0.dot(&Vector3::new(0.48, 0.6, 0.64));
     let mut order: Vec<usize> = (0..planes.len()).collect();
     order.sort_by(|&i, &j| along(i).total_cmp(&along(j)));

@@ -39,7 +39,8 @@ pub(crate) struct Cutter {
 }
 
 impl Cutter {
-    /// The corner that lies farthest along n: uphill from `start` from corner to corner, also between those that are level but for `level`, length.
+    /// The corner that lies farthest along n: uphill from `start` from corner to corner, also between those that are
+    /// level but for `level`, length.
     pub(super) fn highest(&mut self, corners: &[Corner], n: &Vector3<f64>, start: u32, level: f64) -> u32 {
         let seen = self.next_stamp(corners.len());
         let mut best = (n.dot(&corners[start as usize].at), start);
@@ -60,8 +61,8 @@ impl Cutter {
         best.1
     }
 
-    /// Finds all corners of positive excess that are connected with the highest one, and the edges that lead out of them. False unless these lie around
-    /// one new face and cut every other once, as rounding may have it.
+    /// Finds all corners of positive excess that are connected with the highest one, and the edges that lead out of
+    /// them. False unless these lie around one new face and cut every other once, as rounding may have it.
     pub(super) fn trace(&mut self, corners: &[Corner], highest: u32, excess: impl Fn(u32) -> f64) -> bool {
         let stamp = self.next_stamp(corners.len());
         self.removed.clear();

@@ -1,13 +1,14 @@
 //! A partition of all directions from the origin into quadrilaterals that follow the faces and edges of a particle.
 //!
-//! They lie on the polyhedron {n_i·x ≤ d_i + r/√(1−k)} that holds the particle, cut off by a cube about its bounding ball. On a
-//! face i, a neighbour j is active beyond the line n_j·x = d_j. The lines of all neighbours bound the inner part of the face,
-//! where the surface is that of plane i and the shadow sphere alone; between them and the edges there are strips, as
-//! wide as the rounding, which are cut at their ends where a third plane becomes active. For k = 0 these are exactly the places
-//! where the second derivatives of the surface jump, but for those in the corners; for k > 0 they are near them.
+//! They lie on the polyhedron {n_i·x ≤ d_i + r/√(1−k)} that holds the particle, cut off by a cube about its bounding
+//! ball. On a face i, a neighbour j is active beyond the line n_j·x = d_j. The lines of all neighbours bound the inner
+//! part of the face, where the surface is that of plane i and the shadow sphere alone; between them and the edges there
+//! are strips, as wide as the rounding, which are cut at their ends where a third plane becomes active. For k = 0 these
+//! are exactly the places where the second derivatives of the surface jump, but for those in the corners; for k > 0
+//! they are near them.
 //!
-//! The quadrilaterals share corners and edges, so that each direction is covered once whatever rounding does to the corners, if one that is
-//! folded over counts as negative.
+//! The quadrilaterals share corners and edges, so that each direction is covered once whatever rounding does to the
+//! corners, if one that is folded over counts as negative.
 
 use crate::particle::neighbours::{self, LEAST};
 use crate::particle::outlines::Outline;
@@ -41,7 +42,8 @@ impl Patch {
         at_corners.into_iter().fold(f64::INFINITY, f64::min) / self.height
     }
 
-    /// p(u, v), and p·(∂p/∂u × ∂p/∂v): three times the volume between the origin and the image of du dv, negative where it is folded over.
+    /// p(u, v), and p·(∂p/∂u × ∂p/∂v): three times the volume between the origin and the image of du dv, negative where
+    /// it is folded over.
     pub fn at(&self, u: f64, v: f64) -> (Vector3<f64>, f64) {
         let [a, b, c, d] = &self.corners;
         let (inner, outer) = (a + v * (b - a), c + v * (d - c));

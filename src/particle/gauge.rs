@@ -1,16 +1,17 @@
-//! The gauge of a particle, g(p) = 1/τ where the ray through p leaves the particle at τ p, over a piece of a plane or a line.
+//! The gauge of a particle, g(p) = 1/τ where the ray through p leaves the particle at τ p, over a piece of a plane or a
+//! line.
 //!
-//! g is convex, and homogeneous of degree 1: its gradient q(p) at any p gives the supporting plane q·x ≤ 1 of the particle at
-//! p/g(p), and q(p)·y ≤ g(y) for all y. With x = p/g and P = I − x qᵀ its Hessian is
+//! g is convex, and homogeneous of degree 1: its gradient q(p) at any p gives the supporting plane q·x ≤ 1 of the
+//! particle at p/g(p), and q(p)·y ≤ g(y) for all y. With x = p/g and P = I − x qᵀ its Hessian is
 //!
 //! ```text
 //! ∇²g(p) = Pᵀ ∇²S(x) P / (g · ∇S(x)·x)
 //! ```
 //!
-//! A plane is active at x where h(p) = n·p − d g(p) > 0. For d ≥ 0 that is a concave function, so that a plane that is active at
-//! the corners of a piece is active all over it, and with g replaced by a linear lower bound, one that is inactive at
-//! the corners is inactive all over it. For d < 0 it is the other way round. Where no plane is left undecided, the surface is a
-//! single quadric over the piece, and g is analytic.
+//! A plane is active at x where h(p) = n·p − d g(p) > 0. For d ≥ 0 that is a concave function, so that a plane that is
+//! active at the corners of a piece is active all over it, and with g replaced by a linear lower bound, one that is
+//! inactive at the corners is inactive all over it. For d < 0 it is the other way round. Where no plane is left
+//! undecided, the surface is a single quadric over the piece, and g is analytic.
 
 use crate::particle::shape::Shape;
 use crate::particle::{potential, ray_cast};
@@ -80,9 +81,9 @@ pub(crate) struct Activity {
     pub undecided: Vec<Undecided>,
     /// A lower bound of ∇S(x)·x.
     ///
-    /// With e_i the excess of each plane and w their weight it is 2 (1 + w Σ e_i d_i). Σ e_i is at least the root of Σ e_i², and
-    /// e_i g is concave for d_i ≥ 0, so that it is least at a corner. Where a plane has the origin behind it, S(x) − S(0) is a bound,
-    /// since S is convex.
+    /// With e_i the excess of each plane and w their weight it is 2 (1 + w Σ e_i d_i). Σ e_i is at least the root of Σ
+    /// e_i², and e_i g is concave for d_i ≥ 0, so that it is least at a corner. Where a plane has the origin behind it,
+    /// S(x) − S(0) is a bound, since S is convex.
     pub least_slope: f64,
 }
 
@@ -152,7 +153,8 @@ fn middle(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len() as f64
 }
 
-/// Lower bounds of g at the corners of a piece: the tangent plane at its middle, or where that says less the bounding ball, `floor`.
+/// Lower bounds of g at the corners of a piece: the tangent plane at its middle, or where that says less the bounding
+/// ball, `floor`.
 fn lower_bounds(corners: &[Vector3<f64>], tangent: &Vector3<f64>, floor: f64) -> Vec<f64> {
     let bounds: Vec<f64> = corners.iter().map(|corner| tangent.dot(corner)).collect();
     if bounds.iter().all(|&bound| bound >= floor) { bounds } else { vec![floor; corners.len()] }
@@ -189,8 +191,8 @@ impl Piece {
         on_ray
     }
 
-    /// The same for a row of points, for which each plane is evaluated at once: Newton's method from outside, which does not overshoot,
-    /// since S is convex.
+    /// The same for a row of points, for which each plane is evaluated at once: Newton's method from outside, which
+    /// does not overshoot, since S is convex.
     pub fn along_row<const N: usize>(&self, points: &[Vector3<f64>; N], near: &[Vector3<f64>; N]) -> [OnRay; N] {
         let mut tau: [f64; N] = std::array::from_fn(|i| {
             let p = &points[i];

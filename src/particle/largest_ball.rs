@@ -1,21 +1,22 @@
 //! The largest ball within half-spaces: max ρ subject to n_i·x + ρ ≤ h_i, |n_i| = 1.
 //!
-//! Its dual, min Σ y_i h_i subject to Σ y_i n_i = 0, Σ y_i = 1, y ≥ 0, has four equations, so that the simplex method works with bases of four
-//! half-spaces: their ball touches all four, and the half-space that cuts it most enters.
+//! Its dual, min Σ y_i h_i subject to Σ y_i n_i = 0, Σ y_i = 1, y ≥ 0, has four equations, so that the simplex method
+//! works with bases of four half-spaces: their ball touches all four, and the half-space that cuts it most enters.
 
 use nalgebra::{Matrix4, Vector3, Vector4};
 
 /// Half-spaces that a ball may cut by this share of the largest height, by rounding.
 const CUT: f64 = 1e-13;
 
-/// Steps with the half-space that is cut most; from then on the first one enters, and the first leaves, which never leads in circles (Bland).
+/// Steps with the half-space that is cut most; from then on the first one enters, and the first leaves, which never
+/// leads in circles (Bland).
 const STEEPEST: usize = 200;
 
 /// Most steps: far more than any body has taken.
 const MOST_STEPS: usize = 100_000;
 
-/// The radius of the largest ball in {n·x ≤ h}, for unit normals n of a bounded body that holds the origin; its size is at most
-/// `extent`, length. `None` if rounding leaves no answer.
+/// The radius of the largest ball in {n·x ≤ h}, for unit normals n of a bounded body that holds the origin; its size is
+/// at most `extent`, length. `None` if rounding leaves no answer.
 pub(crate) fn radius(faces: &[(Vector3<f64>, f64)], extent: f64) -> Option<f64> {
     // A tetrahedron far outside begins.
     let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];

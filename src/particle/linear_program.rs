@@ -1,9 +1,9 @@
 //! Whether half-spaces enclose a volume (half-planes an area), and how large it is: linear programs in 3 or 2 unknowns.
 //!
-//! Used where a particle with k = 0 is made whose corners do not show at once that it is bounded, and by `planes_enclose`. A program max e·x subject to n_i·x ≤ h_i is solved by
-//! Seidel's randomised incremental algorithm (1991): half-spaces are added in random order, and only when one cuts off the
-//! optimum so far is the program solved again on its plane, with one unknown less. The expected time is proportional to
-//! the number of half-spaces.
+//! Used where a particle with k = 0 is made whose corners do not show at once that it is bounded, and by
+//! `planes_enclose`. A program max e·x subject to n_i·x ≤ h_i is solved by Seidel's randomised incremental algorithm
+//! (1991): half-spaces are added in random order, and only when one cuts off the optimum so far is the program solved
+//! again on its plane, with one unknown less. The expected time is proportional to the number of half-spaces.
 //!
 //! The optimum itself is not trusted. Its active planes give multipliers y ≥ 0 with Σ y_i n_i ≈ e, and by weak duality
 //!
@@ -15,27 +15,29 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Half the edge of the cube in which optima are sought, in distances of the farthest face. An optimum on the cube means
-/// unbounded: with unit normals a larger polyhedron has multipliers above 1e9, which [`LARGEST_RESIDUAL`] refuses.
+/// Half the edge of the cube in which optima are sought, in distances of the farthest face. An optimum on the cube
+/// means unbounded: with unit normals a larger polyhedron has multipliers above 1e9, which [`LARGEST_RESIDUAL`]
+/// refuses.
 const CUBE: f64 = 1e10;
 
-/// Part of the terms of n·x − h below which its sign is not trusted. Far above rounding, so that planes through one corner
-/// are not taken to cut each other off; what is overlooked is covered by the dual bound.
+/// Part of the terms of n·x − h below which its sign is not trusted. Far above rounding, so that planes through one
+/// corner are not taken to cut each other off; what is overlooked is covered by the dual bound.
 const UNDECIDED: f64 = 1e-12;
 
-/// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, of which
+/// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, of
+/// which
 /// |n|₁ ≤ √3 makes 3.5ε; as much for the rounding of n when it was brought to unit length; one more for h and the sum.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
-/// Largest |ρ|₁ at which the half-spaces count as bounded. The half edge is then right to 1e-6, and two planes that face
-/// each other at an angle below 2e-9 count as parallel.
+/// Largest |ρ|₁ at which the half-spaces count as bounded. The half edge is then right to 1e-6, and two planes that
+/// face each other at an angle below 2e-9 count as parallel.
 const LARGEST_RESIDUAL: f64 = 1e-6;
 
 /// Part of the scale below which an extent is so small that the units may have cost digits.
 const TINY: f64 = 1e-100;
 
-/// Orders of the half-spaces that are tried: where many planes meet in a corner, rounding may lead to planes that are not
-/// those of the optimum.
+/// Orders of the half-spaces that are tried: where many planes meet in a corner, rounding may lead to planes that are
+/// not those of the optimum.
 const ATTEMPTS: u64 = 4;
 
 /// Place of the cube's own faces.
@@ -49,8 +51,8 @@ struct HalfSpace {
     place: usize,
 }
 
-/// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}, |n| = 1, h > 0; `None` if unbounded.
-/// With two dimensions, of a square in the plane z = 0, to which x is then confined.
+/// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}, |n| = 1, h > 0; `None` if
+/// unbounded. With two dimensions, of a square in the plane z = 0, to which x is then confined.
 pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
     let mut faces = faces.to_vec();
     loop {
@@ -107,8 +109,8 @@ fn dual_bound(faces: &[(Vector3<f64>, f64)], e: &Vector3<f64>, active: &[usize])
     Some((y.dot(&distances) * (1.0 + ROUNDING), residual))
 }
 
-/// Maximiser of c·x over the half-spaces and the cube |x_i| ≤ [`CUBE`], in the first coordinates; `active` gets the planes
-/// that meet there.
+/// Maximiser of c·x over the half-spaces and the cube |x_i| ≤ [`CUBE`], in the first coordinates; `active` gets the
+/// planes that meet there.
 fn maximise(half_spaces: &[HalfSpace], c: [f64; 3], dimensions: usize, active: &mut [usize; 3]) -> [f64; 3] {
     if dimensions == 1 {
         let (x, place) = farther_end(half_spaces, c[0]);

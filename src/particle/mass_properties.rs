@@ -1,20 +1,22 @@
 //! Volume, centroid and inertia of a particle, by adaptive quadrature over rays.
 //!
-//! With ρ the distance from the origin to the surface, V = ∫ρ³/3 dω, ∫x dV = ∫ρ⁴/4 e dω, ∫x xᵀ dV = ∫ρ⁵/5 e eᵀ dω. A patch
-//! p(u, v) of `direction_mesh` covers dω = w du dv/|p|³ with w = p·(∂p/∂u × ∂p/∂v), so that with τ = ρ/|p| they are integrals of w τ³/3,
-//! w τ⁴/4 p and w τ⁵/5 p pᵀ over u and v: polynomials on a flat face, where τ = 1.
+//! With ρ the distance from the origin to the surface, V = ∫ρ³/3 dω, ∫x dV = ∫ρ⁴/4 e dω, ∫x xᵀ dV = ∫ρ⁵/5 e eᵀ dω. A
+//! patch p(u, v) of `direction_mesh` covers dω = w du dv/|p|³ with w = p·(∂p/∂u × ∂p/∂v), so that with τ = ρ/|p| they
+//! are integrals of w τ³/3, w τ⁴/4 p and w τ⁵/5 p pᵀ over u and v: polynomials on a flat face, where τ = 1.
 //!
-//! Each cell is integrated by the product of the Lobatto and Kronrod rule of 7 points with itself (`quadrature`). Its error is
-//! bounded by two parts, each of which is found for both directions of the cell:
+//! Each cell is integrated by the product of the Lobatto and Kronrod rule of 7 points with itself (`quadrature`). Its
+//! error is bounded by two parts, each of which is found for both directions of the cell:
 //!
-//! - As far as g = 1/τ is analytic over the cell, the error is a share of the difference from the rule of 4 points, by how
-//!   far from the cell g may be singular.
-//! - A plane that is active in a part of the cell only lets ∇²g jump, by what `gauge` says. Whatever the place of that jump,
-//!   the error is at most `quadrature::OF_JUMP` times it. Where the jump is sharper than the cell is wide, convexity says more: g lies
-//!   below its bilinear interpolant between neighbouring points, and above its tangents there.
+//! - As far as g = 1/τ is analytic over the cell, the error is a share of the difference from the rule of 4 points, by
+//!   how far from the cell g may be singular.
+//! - A plane that is active in a part of the cell only lets ∇²g jump, by what `gauge` says. Whatever the place of that
+//!   jump, the error is at most `quadrature::OF_JUMP` times it. Where the jump is sharper than the cell is wide,
+//!   convexity says more: g lies below its bilinear interpolant between neighbouring points, and above its tangents
+//!   there.
 //!
-//! The second part does not ask what the points have seen, so that no feature is overlooked between them. The cell with the largest bound is
-//! halved in the direction that has the larger part of it, until the bounds of all cells add up to less than the tolerance.
+//! The second part does not ask what the points have seen, so that no feature is overlooked between them. The cell with
+//! the largest bound is halved in the direction that has the larger part of it, until the bounds of all cells add up to
+//! less than the tolerance.
 
 use crate::particle::direction_mesh::{self, Patch};
 use crate::particle::gauge::{Activity, Gauge, OnRay, Piece, Undecided};
@@ -33,9 +35,9 @@ pub struct MassProperties {
     pub centroid: Vector3<f64>,
     /// ∫ (|x|² I − x xᵀ) dV about the local origin, length⁵.
     pub inertia: Matrix3<f64>,
-    /// Estimated bound on the relative error: of the volume, of each moment of inertia about an axis through the origin, and of the
-    /// centroid as a share of the radii of gyration across the axes' planes. It exceeds the tolerance where that cannot be reached,
-    /// and is infinite where lengths are so different that nothing is known.
+    /// Estimated bound on the relative error: of the volume, of each moment of inertia about an axis through the
+    /// origin, and of the centroid as a share of the radii of gyration across the axes' planes. It exceeds the
+    /// tolerance where that cannot be reached, and is infinite where lengths are so different that nothing is known.
     pub error: f64,
 }
 
@@ -45,7 +47,8 @@ pub const MASS_TOLERANCE: f64 = 1e-6;
 /// Least relative tolerance: where this is not enough, rounding leaves no more digits.
 pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
 
-/// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens of seconds.
+/// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens
+/// of seconds.
 const MOST_CELLS: usize = 200_000;
 pub(crate) const MOST_WORK: usize = 1_000_000_000;
 
@@ -200,7 +203,8 @@ impl Norm {
         }
     }
 
-    /// A bound on the relative error of volume, centroid and every moment of inertia that this change of the moments makes.
+    /// A bound on the relative error of volume, centroid and every moment of inertia that this change of the moments
+    /// makes.
     fn of_change(&self, change: &Moments) -> f64 {
         let first = self.unscaled * first(change);
         let second = self.unscaled * second(change) * self.unscaled.transpose();
@@ -208,7 +212,8 @@ impl Norm {
         (change[0].abs() + first.norm()).max(second.norm()) / self.volume
     }
 
-    /// The relative change of the moments that a change of g makes, where w du dv is `volume` and p, in these units, has that length.
+    /// The relative change of the moments that a change of g makes, where w du dv is `volume` and p, in these units,
+    /// has that length.
     fn sensitivity(&self, volume: f64, length: f64, gauge: f64) -> f64 {
         let x = length / gauge;
         volume / gauge.powi(4) * (1.0 + x).max(x * x) / self.volume
@@ -345,8 +350,9 @@ fn jumps(piece: &Piece, corners: &[Vector3<f64>; 4], nodes: &[Node], norm: &Norm
     sum
 }
 
-/// The largest rate at which the excess of a plane changes on the surface, in a direction, where the plane is active: n·x there lies between d
-/// and d + `excess`, and ∇g along a row of points, since g is convex, between its values at the ends.
+/// The largest rate at which the excess of a plane changes on the surface, in a direction, where the plane is active:
+/// n·x there lies between d and d + `excess`, and ∇g along a row of points, since g is convex, between its values at
+/// the ends.
 fn rate(plane: &Undecided, nodes: &[Node], direction: usize) -> f64 {
     let (row, step) = if direction == 0 { (1, POINTS) } else { (POINTS, 1) };
     let ends = (0..POINTS).flat_map(|i| [i * row, i * row + (POINTS - 1) * step]);
@@ -358,8 +364,8 @@ fn rate(plane: &Undecided, nodes: &[Node], direction: usize) -> f64 {
     ends.flat_map(|i| of_end(&nodes[i])).fold(0.0, f64::max)
 }
 
-/// Bounds of what changes over a cell, also between the nodes: in each rectangle of four of them the tangents there give a lower bound of g,
-/// and w and the length of p are largest at its corners.
+/// Bounds of what changes over a cell, also between the nodes: in each rectangle of four of them the tangents there
+/// give a lower bound of g, and w and the length of p are largest at its corners.
 struct Extremes {
     /// A lower bound of g.
     gauge: f64,

@@ -4,11 +4,11 @@
 //! |---|---|
 //! | `plane` | one plane as given |
 //! | `error` | why planes and parameters do not make a particle |
-//! | `plane_clusters` | planes in a tree of clusters of similar normals, which are skipped as a whole where none of them is active |
+//! | `plane_clusters` | planes in clusters of similar normals, which are skipped as a whole where none is active |
 //! | `linear_program` | whether half-spaces enclose a volume, and how large it is (Seidel's algorithm) |
 //! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
 //! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
-//! | `cutter`, `polyhedron`, `outlines` | a polyhedron that stays closed while planes cut it, what a plane takes away, and the faces |
+//! | `cutter`, `polyhedron`, `outlines` | a polyhedron that planes cut, what a plane takes away, and the faces |
 //! | `coplanar` | which faces of a convex body are one |
 //! | `volume` | volume, centroid and inertia of a body from the polygons of its surface |
 //! | `neighbours` | which planes are neighbours on the polyhedron that holds a particle |

@@ -1,5 +1,5 @@
-//! Which planes are neighbours on the polyhedron that holds a particle. From neighbour to neighbour a farthest plane is found without a
-//! look at most of the others.
+//! Which planes are neighbours on the polyhedron that holds a particle. From neighbour to neighbour a farthest plane is
+//! found without a look at most of the others.
 
 use crate::particle::bounding_volumes::Bounds;
 use crate::particle::cutter::Cutter;
@@ -42,7 +42,8 @@ impl Neighbours {
     }
 }
 
-/// The polyhedron {n_i·x ≤ d_i + r/√(1−k)}, cut off by a cube about the bounding ball. The face of plane i has the number [`OF_CUBE`] + i.
+/// The polyhedron {n_i·x ≤ d_i + r/√(1−k)}, cut off by a cube about the bounding ball. The face of plane i has the
+/// number [`OF_CUBE`] + i.
 pub(super) fn polyhedron(rows: &[[f64; 4]], bounds: &Bounds) -> Polyhedron {
     let radius = bounds.radius;
     let (mut polyhedron, mut cutter) = (Polyhedron::cube(radius, LEAST * radius), Cutter::default());

@@ -15,7 +15,8 @@ pub(crate) struct Outlines {
     pub(super) seen: Vec<[bool; 3]>,
 }
 
-/// A face: its number, its corners counter-clockwise, and with each of them the number of the face beyond the edge to the next one.
+/// A face: its number, its corners counter-clockwise, and with each of them the number of the face beyond the edge to
+/// the next one.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outline<'a> {
     pub number: usize,

@@ -44,8 +44,8 @@ pub struct Particle {
 }
 
 impl Particle {
-    /// Builds a particle from its planes, rounding radius r, sphericity k and shadow radius R. Planes that are one within its bounding ball, to 1e-6 of the
-    /// ball's radius, count once: as the first of them.
+    /// Builds a particle from its planes, rounding radius r, sphericity k and shadow radius R. Planes that are one
+    /// within its bounding ball, to 1e-6 of the ball's radius, count once: as the first of them.
     ///
     /// # Errors
     /// Non-finite numbers, k outside [0, 1], r ≤ 0 (unless k = 1), R ≤ 0 (unless k = 0), a normal that is zero or whose
@@ -64,8 +64,8 @@ impl Particle {
         Ok(Self::of(shape))
     }
 
-    /// What stands in place of the second particle where the first one touches a plane, a line or a point of a boundary, which
-    /// leave it so many dimensions: S = 0 on all of it.
+    /// What stands in place of the second particle where the first one touches a plane, a line or a point of a
+    /// boundary, which leave it so many dimensions: S = 0 on all of it.
     pub(crate) fn boundary(dimensions: usize) -> &'static Self {
         static BOUNDARIES: LazyLock<[Particle; 3]> =
             LazyLock::new(|| [0, 1, 2].map(|d| Particle::of(Shape::boundary(d))));
@@ -79,7 +79,8 @@ impl Particle {
     }
 
     fn of(shape: Shape) -> Self {
-        // From a random number on, so that a memory that was saved in spite of its documentation is of no particle of another process.
+        // From a random number on, so that a memory that was saved in spite of its documentation is of no particle of
+        // another process.
         static LAST: LazyLock<AtomicU64> =
             LazyLock::new(|| AtomicU64::new(RandomState::new().build_hasher().finish() >> 13));
         Self { shape, serial: 1 + LAST.fetch_add(1, Ordering::Relaxed) }
@@ -149,8 +150,8 @@ impl Particle {
         self.shape.shadow_radius
     }
 
-    /// ℓ, by which 1 − s is multiplied to give a depth below the surface: exact, to first order, at the middle of the face that is
-    /// nearest to the centre, and a constant of the particle elsewhere. Length.
+    /// ℓ, by which 1 − s is multiplied to give a depth below the surface: exact, to first order, at the middle of the
+    /// face that is nearest to the centre, and a constant of the particle elsewhere. Length.
     ///
     /// 1/ℓ is the slope of s at that face, at the distance h from the centre where S = 1 with this plane alone:
     /// √((1−k)(1 − k h²/R²))·|n|/r + k h/R². That is r/|n| for k = 0 and R for k = 1.
@@ -158,8 +159,8 @@ impl Particle {
         self.shape.depth_length
     }
 
-    /// Whether the planes alone enclose a volume. Where they do not (no planes, or one left out), only the shadow sphere bounds
-    /// the particle, at R/√k: for k > 0 that is valid, and seldom meant.
+    /// Whether the planes alone enclose a volume. Where they do not (no planes, or one left out), only the shadow
+    /// sphere bounds the particle, at R/√k: for k > 0 that is valid, and seldom meant.
     pub fn planes_enclose(&self) -> bool {
         self.shape.planes_enclose()
     }
@@ -169,8 +170,9 @@ impl Particle {
         self.shape.bounds.radius
     }
 
-    /// Corners of a polyhedron, local frame, length. Corners nearer to each other than 1e-6 of the distance of the farthest one are
-    /// merged: enlarged by as much, the polyhedron holds the whole particle. [`Self::support`] counts that.
+    /// Corners of a polyhedron, local frame, length. Corners nearer to each other than 1e-6 of the distance of the
+    /// farthest one are merged: enlarged by as much, the polyhedron holds the whole particle. [`Self::support`] counts
+    /// that.
     pub fn bounding_corners(&self) -> &[Vector3<f64>] {
         &self.shape.bounds.corners
     }
@@ -180,24 +182,24 @@ impl Particle {
         self.shape.bounds.aligned_box(pose.rotation(), pose.position())
     }
 
-    /// Upper bound of max e·x over the particle, length, e the unit vector of a local direction of any length. `None` for one that is zero or not
-    /// finite.
+    /// Upper bound of max e·x over the particle, length, e the unit vector of a local direction of any length. `None`
+    /// for one that is zero or not finite.
     pub fn support(&self, direction: &Vector3<f64>) -> Option<f64> {
         Some(self.shape.bounds.support(&number::direction(direction)?))
     }
 
-    /// Distance τ ≥ 0 along a local direction of any length from a local point inside to the surface, length: the τ with S(from + τ·e) = 1, e the
-    /// unit vector of the direction.
+    /// Distance τ ≥ 0 along a local direction of any length from a local point inside to the surface, length: the τ
+    /// with S(from + τ·e) = 1, e the unit vector of the direction.
     ///
-    /// From a point that rounding has put outside, the answer is a small negative number if the ray points away from the
-    /// particle, and the distance to where it leaves it again if the ray enters. `None` when the ray misses the particle, the direction is zero or
-    /// something is not finite.
+    /// From a point that rounding has put outside, the answer is a small negative number if the ray points away from
+    /// the particle, and the distance to where it leaves it again if the ray enters. `None` when the ray misses the
+    /// particle, the direction is zero or something is not finite.
     pub fn surface_distance(&self, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
         ray_cast::distance(self, from, &number::direction(direction)?)
     }
 
-    /// Volume, centroid and inertia to a relative tolerance ([`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is usual),
-    /// by adaptive quadrature over rays from the origin to the surface. The answer says how far off it may be.
+    /// Volume, centroid and inertia to a relative tolerance ([`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is
+    /// usual), by adaptive quadrature over rays from the origin to the surface. The answer says how far off it may be.
     ///
     /// 1e-6 takes milliseconds for some tens of planes.
     ///

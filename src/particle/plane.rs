@@ -7,7 +7,8 @@ use nalgebra::Vector3;
 pub struct Plane {
     /// Outward normal (a, b, c); unit length is usual, not required.
     pub normal: Vector3<f64>,
-    /// Offset d, length·|n|: the plane lies at d/|n| from the origin; for k = 0 the flat part of the face at (d + r)/|n|.
+    /// Offset d, length·|n|: the plane lies at d/|n| from the origin; for k = 0 the flat part of the face at (d +
+    /// r)/|n|.
     pub offset: f64,
 }
 

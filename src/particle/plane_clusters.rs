@@ -7,13 +7,15 @@ use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Most planes of a particle that need no bounds, and of a cluster that is not divided: about as many as two bounds cost to evaluate.
+/// Most planes of a particle that need no bounds, and of a cluster that is not divided: about as many as two bounds
+/// cost to evaluate.
 const MOST: usize = 12;
 
 /// Relative margin of a bound, 45ε.
 ///
-/// The bound is off by at most 10ε·(|m| + ρ)|y|: γ₃ for m·y, γ₃ for |y| and for ρ, ε for the differences n_i − m, and two
-/// additions. The rounding of d needs no more: where it decides the sign of the bound, |d| is about (|m| + ρ)|y| itself.
+/// The bound is off by at most 10ε·(|m| + ρ)|y|: γ₃ for m·y, γ₃ for |y| and for ρ, ε for the differences n_i − m, and
+/// two additions. The rounding of d needs no more: where it decides the sign of the bound, |d| is about (|m| + ρ)|y|
+/// itself.
 const MARGIN: f64 = 1e-14;
 
 /// A run of consecutive planes with similar normals.
@@ -24,7 +26,8 @@ struct Cluster {
     spread: f64,
     least_offset: f64,
     planes: Range<usize>,
-    /// The first cluster after this one that holds none of its planes; the one right after it, if this one is not divided.
+    /// The first cluster after this one that holds none of its planes; the one right after it, if this one is not
+    /// divided.
     next: usize,
 }
 
@@ -56,8 +59,8 @@ impl PlaneClusters {
         usize::from(!self.is_single())
     }
 
-    /// Calls `visit` with runs of planes that may have an excess above −`early`. Returns an upper bound on the excess of all
-    /// other planes.
+    /// Calls `visit` with runs of planes that may have an excess above −`early`. Returns an upper bound on the excess
+    /// of all other planes.
     #[inline(always)]
     pub fn visit_near(&self, y: &Vector3<f64>, early: f64, mut visit: impl FnMut(Range<usize>)) -> f64 {
         let single = self.is_single();
@@ -79,8 +82,8 @@ impl PlaneClusters {
         most_left_out
     }
 
-    /// The largest of the numbers that `largest_of` returns for runs of planes, each with its plane; runs whose bound does not
-    /// exceed the largest so far are left out.
+    /// The largest of the numbers that `largest_of` returns for runs of planes, each with its plane; runs whose bound
+    /// does not exceed the largest so far are left out.
     pub fn largest(&self, y: &Vector3<f64>, mut largest_of: impl FnMut(Range<usize>) -> (f64, usize)) -> (f64, usize) {
         if let [all] = &self.0[..] {
             return largest_of(all.planes.clone());

@@ -1,9 +1,9 @@
 //! A polyhedron about the origin, cut out of a cube by one plane after the other.
 //!
-//! Three faces meet in every corner: a plane takes away the corners beyond it, which are connected, and puts a new one on each edge that
-//! it cuts. Each corner is found beyond or not once for all its edges, so that the surface stays closed whatever
-//! rounding does, with every edge between two faces; and it stays about the origin, since what is taken away and what is put in its
-//! place both lie beyond the plane.
+//! Three faces meet in every corner: a plane takes away the corners beyond it, which are connected, and puts a new one
+//! on each edge that it cuts. Each corner is found beyond or not once for all its edges, so that the surface stays
+//! closed whatever rounding does, with every edge between two faces; and it stays about the origin, since what is taken
+//! away and what is put in its place both lie beyond the plane.
 
 use crate::particle::cutter::{Cutter, Edge};
 use crate::particle::outlines::Outlines;
@@ -15,8 +15,8 @@ pub(super) struct Corner {
     pub at: Vector3<f64>,
     /// Counter-clockwise from outside.
     pub faces: [u32; 3],
-    /// The next corner, counter-clockwise, on each of these faces; on the other side of that edge is the face before. [`REMOVED`] of one
-    /// that was taken away.
+    /// The next corner, counter-clockwise, on each of these faces; on the other side of that edge is the face before.
+    /// [`REMOVED`] of one that was taken away.
     pub next: [u32; 3],
 }
 
@@ -24,7 +24,8 @@ pub(super) struct Corner {
 const REMOVED: [u32; 3] = [u32::MAX; 3];
 
 impl Corner {
-    /// The one that a plane, whose face is `number`, puts on an edge; `low` and `high` are the heights of the edge's ends.
+    /// The one that a plane, whose face is `number`, puts on an edge; `low` and `high` are the heights of the edge's
+    /// ends.
     fn on(edge: &Edge, corners: &[Self], [low, high]: [f64; 2], number: u32, next: [u32; 3]) -> Self {
         let [here, there] = [edge.kept, edge.gone].map(|i| corners[i as usize].at);
         Self { at: here + low / (low - high) * (there - here), faces: [edge.right, number, edge.left], next }
@@ -58,7 +59,8 @@ pub(crate) struct Polyhedron {
 pub(crate) const OF_CUBE: usize = 6;
 
 impl Polyhedron {
-    /// A cube about the origin, whose faces are the numbers below [`OF_CUBE`]; planes that cut off less than `least_cut` will not count.
+    /// A cube about the origin, whose faces are the numbers below [`OF_CUBE`]; planes that cut off less than
+    /// `least_cut` will not count.
     pub fn cube(half: f64, least_cut: f64) -> Self {
         let corner = |i: usize| {
             let is_low = |axis: usize| i >> axis & 1;
@@ -74,8 +76,8 @@ impl Polyhedron {
         Self { corners: (0..8).map(corner).collect(), least_cut, start: 0 }
     }
 
-    /// Cuts off what lies beyond n·x = `height`, with n of unit length; the new face is `number`. Whether it did: not where that is less
-    /// than the least cut, or where rounding leaves no closed surface.
+    /// Cuts off what lies beyond n·x = `height`, with n of unit length; the new face is `number`. Whether it did: not
+    /// where that is less than the least cut, or where rounding leaves no closed surface.
     pub fn cut(&mut self, cutter: &mut Cutter, number: usize, n: &Vector3<f64>, height: f64) -> bool {
         let highest = cutter.highest(&self.corners, n, self.start, self.least_cut);
         let excess = |corners: &[Corner], i: u32| n.dot(&corners[i as usize].at) - height;
@@ -96,7 +98,8 @@ impl Polyhedron {
         true
     }
 
-    /// The parts below and beyond n·x = `height`, both with the new face `number`, where it is crossed: with less than the least cut on either side it is missed.
+    /// The parts below and beyond n·x = `height`, both with the new face `number`, where it is crossed: with less than
+    /// the least cut on either side it is missed.
     pub fn split(
         &self,
         cutter: &mut Cutter,
@@ -132,7 +135,8 @@ impl Polyhedron {
         (low.0 < -self.least_cut && high.0 > self.least_cut).then_some([low.1 as u32, high.1 as u32])
     }
 
-    /// What is left without the corners of positive excess that are connected with the highest one; whether it is closed.
+    /// What is left without the corners of positive excess that are connected with the highest one; whether it is
+    /// closed.
     fn part(
         &self,
         cutter: &mut Cutter,
@@ -245,8 +249,9 @@ impl Polyhedron {
         });
     }
 
-    /// Walks around each face in turn, counter-clockwise: `visit` is called with the face's number and each corner, as its place and which of its
-    /// three faces this one is, and with `None` at the end of the face. `seen` is room that is lent.
+    /// Walks around each face in turn, counter-clockwise: `visit` is called with the face's number and each corner, as
+    /// its place and which of its three faces this one is, and with `None` at the end of the face. `seen` is room that
+    /// is lent.
     #[inline]
     fn walk(&self, seen: &mut Vec<[bool; 3]>, mut visit: impl FnMut(u32, Option<(usize, usize)>)) {
         seen.clear();
@@ -331,7 +336,8 @@ mod tests {
                 polyhedron.cut(&mut cutter, OF_CUBE + 2 * i as usize + 1, &-n, 1e-12);
                 assert_closed(&polyhedron);
             }
-            // A box but for what planes of this slope take away above and below, at most 8 times the half of its diagonal.
+            // A box but for what planes of this slope take away above and below, at most 8 times the half of its
+            // diagonal.
             let (found, whole) = (volume(&polyhedron), 4.0 * (0.5 + 1e-12));
             assert!(found <= whole + 1e-14 && found >= whole - 12.0 * tilt, "{tilt:e}: {found}");
         }

@@ -25,8 +25,8 @@ pub struct Quadratic {
     pub pull: f64,
     /// Number of planes that were counted.
     pub count: u32,
-    /// Least |n·x − d|: the change of an excess that changes the active set. Negative if the planes that were counted are
-    /// not the active set.
+    /// Least |n·x − d|: the change of an excess that changes the active set. Negative if the planes that were counted
+    /// are not the active set.
     pub clear: f64,
 }
 
@@ -42,16 +42,16 @@ impl Quadratic {
         clear: f64::INFINITY,
     };
 
-    /// Half of a bound on the terms of S after a step v, in the axes of the quadratic. With b = Σ|v_i|·√(h_ii/2) they are at
-    /// most (√S + b)² ≤ 2(S + b²), and b² ≤ 3/2·Σ v_i²·h_ii by Cauchy's inequality.
+    /// Half of a bound on the terms of S after a step v, in the axes of the quadratic. With b = Σ|v_i|·√(h_ii/2) they
+    /// are at most (√S + b)² ≤ 2(S + b²), and b² ≤ 3/2·Σ v_i²·h_ii by Cauchy's inequality.
     #[inline]
     pub(crate) fn terms(&self, v: &Vector3<f64>) -> f64 {
         self.expansion + 1.5 * v.component_mul(v).dot(&self.hessian.diagonal())
     }
 
-    /// Bound on the rounding of S along a step with these terms: γ with n = count + 15 for each term of value, gradient and
-    /// Hessian, which together are at most 2·terms (docs/theory.md, "Rounding"). It is taken axis by axis, since a long step
-    /// along a face meets only the curvature along it.
+    /// Bound on the rounding of S along a step with these terms: γ with n = count + 15 for each term of value, gradient
+    /// and Hessian, which together are at most 2·terms (docs/theory.md, "Rounding"). It is taken axis by axis, since a
+    /// long step along a face meets only the curvature along it.
     #[inline]
     pub(crate) fn rounding_after(&self, terms: f64) -> f64 {
         (15.0 + f64::from(self.count)) * f64::EPSILON * terms
@@ -95,9 +95,9 @@ pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
     turned(shape, shape.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
-/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weight of the
-/// shadow sphere may differ from the shape's own. `counts` says for a plane and its n·y − d whether it
-/// is counted; none below −`early` is.
+/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weight of
+/// the shadow sphere may differ from the shape's own. `counts` says for a plane and its n·y − d whether it is counted;
+/// none below −`early` is.
 ///
 /// Each normal is turned before it is squared, and not the finished Hessian: in a frame aligned with a face the small
 /// curvature along it then keeps its relative precision beside the large one across it.
@@ -228,7 +228,8 @@ mod tests {
         }
     }
 
-    /// S is quadratic between its kinks, where central differences are exact but for rounding; a kink within a step h costs h.
+    /// S is quadratic between its kinks, where central differences are exact but for rounding; a kink within a step h
+    /// costs h.
     #[test]
     fn derivatives_are_those_of_the_value() {
         let particle = Particle::new(&planes(), R, K, SHADOW).unwrap();

@@ -3,8 +3,8 @@
 /// Number of points.
 pub(crate) const POINTS: usize = 7;
 
-/// Kronrod's extension of Lobatto's rule of 4 points (Gander & Gautschi 2000), both with the ends: point, weight in the rule
-/// of 7 points, of degree 9, and in that of 4 points, of degree 5.
+/// Kronrod's extension of Lobatto's rule of 4 points (Gander & Gautschi 2000), both with the ends: point, weight in the
+/// rule of 7 points, of degree 9, and in that of 4 points, of degree 5.
 pub(crate) const RULE: [(f64, f64, f64); POINTS] = [
     (0.0, 11.0 / 420.0, 1.0 / 12.0),
     (0.091_751_709_536_136_98, 36.0 / 245.0, 0.0),
@@ -15,8 +15,8 @@ pub(crate) const RULE: [(f64, f64, f64); POINTS] = [
     (1.0, 11.0 / 420.0, 1.0 / 12.0),
 ];
 
-/// Error of the rule of 7 points for a function whose second derivative lies between 0 and 1, wherever it jumps: half of
-/// ∫|K|, with K the second Peano kernel, whose integral is 0.
+/// Error of the rule of 7 points for a function whose second derivative lies between 0 and 1, wherever it jumps: half
+/// of ∫|K|, with K the second Peano kernel, whose integral is 0.
 pub(crate) const OF_JUMP: f64 = 6.198e-4;
 
 /// What the difference of the rules is at most for such a function, over that: again half of ∫|K|, of the difference.
@@ -26,15 +26,16 @@ pub(crate) const DIFFERENCE_OF_JUMP: f64 = 2.556e-3 / OF_JUMP;
 const LEAST_SHARE: f64 = 0.01;
 const MOST_SHARE: f64 = 4.0;
 
-/// Share over ρ⁻⁴, by which the terms that both rules miss are smaller than those that only one misses. For functions with a root or a pole at
-/// any place around the interval the error of the rule of 7 points is up to 10 ρ⁻⁴ of the difference.
+/// Share over ρ⁻⁴, by which the terms that both rules miss are smaller than those that only one misses. For functions
+/// with a root or a pole at any place around the interval the error of the rule of 7 points is up to 10 ρ⁻⁴ of the
+/// difference.
 const OF_FOURTH_POWER: f64 = 16.0;
 
-/// Error of the rule of 7 points over its difference from that of 4, for a function that is analytic where D is not 0. D is
-/// quadratic; here it has these values at 0, ½ and 1.
+/// Error of the rule of 7 points over its difference from that of 4, for a function that is analytic where D is not 0.
+/// D is quadratic; here it has these values at 0, ½ and 1.
 ///
-/// With α + β T₁ + γ T₂ its Chebyshev series, |D| ≥ α − |β| (ρ + 1/ρ)/2 − |γ| (ρ² + 1/ρ²)/2 in the ellipse around the interval
-/// of which ρ is the sum of the half axes. The function is analytic in the largest one where that is positive.
+/// With α + β T₁ + γ T₂ its Chebyshev series, |D| ≥ α − |β| (ρ + 1/ρ)/2 − |γ| (ρ² + 1/ρ²)/2 in the ellipse around the
+/// interval of which ρ is the sum of the half axes. The function is analytic in the largest one where that is positive.
 pub(crate) fn share(first: f64, middle: f64, last: f64) -> f64 {
     let (alpha, beta) = (0.25 * (first + last + 2.0 * middle), 0.5 * (last - first).abs());
     let gamma = 0.25 * (first + last - 2.0 * middle).abs();
@@ -67,7 +68,8 @@ mod tests {
         }
     }
 
-    /// ⟨t − a⟩²/2, whose second derivative is 0 or 1, with the jump anywhere, and sums of two that jump up and down again.
+    /// ⟨t − a⟩²/2, whose second derivative is 0 or 1, with the jump anywhere, and sums of two that jump up and down
+    /// again.
     #[test]
     fn jumps_cost_no_more_than_is_said() {
         let cut = |t: f64, a: f64| 0.5 * (t - a).max(0.0).powi(2);
@@ -85,7 +87,8 @@ mod tests {
         assert!(most[1] <= OF_JUMP * DIFFERENCE_OF_JUMP, "{:e}", most[1]);
     }
 
-    /// 1, t and t² over D = (t − x)² + y², whose integrals are known: as for moments, their difference together is not small by chance.
+    /// 1, t and t² over D = (t − x)² + y², whose integrals are known: as for moments, their difference together is not
+    /// small by chance.
     #[test]
     fn a_share_of_the_difference_holds_the_error_of_analytic_functions() {
         for i in 0..60 {

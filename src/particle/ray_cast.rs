@@ -1,8 +1,8 @@
 //! The distance along a ray from a point inside to the surface: exact, since S is piecewise quadratic on a line.
 //!
-//! Newton's method with the quadratic at the current point as the model: its root is the answer once the active planes are
-//! those of the root. Before that the root may be passed on either side, and a bracket replaces a step that leaves it by the
-//! Newton step from the outer end, which does not overshoot because S is convex.
+//! Newton's method with the quadratic at the current point as the model: its root is the answer once the active planes
+//! are those of the root. Before that the root may be passed on either side, and a bracket replaces a step that leaves
+//! it by the Newton step from the outer end, which does not overshoot because S is convex.
 //!
 //! Stop criteria compare steps with an estimate of the rounding of a point on the ray; they are no error bounds.
 
@@ -14,14 +14,15 @@ use nalgebra::Vector3;
 /// Most steps; every Newton step from outside passes a plane at least, so that only rounding leads here.
 const MOST_STEPS: usize = 100;
 
-/// Surface points are no further off than this, in the largest distance that the bounding ball allows: that is rounded, too.
+/// Surface points are no further off than this, in the largest distance that the bounding ball allows: that is rounded,
+/// too.
 const REACH: f64 = 1.0 + 1e-9;
 
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
-/// `from` should be inside (S ≤ 1). From a point that rounding has put outside, the answer is a small negative number if the
-/// ray points away from the particle, and the distance to where it leaves it again if the ray enters. `None` when the ray
-/// misses the particle or something is not finite.
+/// `from` should be inside (S ≤ 1). From a point that rounding has put outside, the answer is a small negative number
+/// if the ray points away from the particle, and the distance to where it leaves it again if the ray enters. `None`
+/// when the ray misses the particle or something is not finite.
 pub fn distance(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
     distance_near(shape, from, direction, 0.0)
 }
@@ -44,8 +45,8 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
         }
         let newton = tau - line.value / line.slope;
         let rounding = ray.rounding(newton.abs().min(tau.abs()));
-        // From outside a Newton step misses the root by at most ½·curvature·step²/slope, since planes only become inactive on
-        // the way. From inside others may become active, and only a step below rounding is the last.
+        // From outside a Newton step misses the root by at most ½·curvature·step²/slope, since planes only become
+        // inactive on the way. From inside others may become active, and only a step below rounding is the last.
         let step = newton - tau;
         let outside_and_close = line.value >= 0.0 && 0.5 * line.curvature * step * step <= rounding * line.slope;
         // A slope that has lost its digits may lead anywhere.
@@ -86,8 +87,8 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
                 let kept = next.max(bracket.low).min(bracket.high);
                 return kept.is_finite().then_some(kept);
             }
-            // Newton steps from outside end at the root if there is one. If not, the ray touches the particle, to the rounding
-            // of S near 1, or misses it.
+            // Newton steps from outside end at the root if there is one. If not, the ray touches the particle, to the
+            // rounding of S near 1, or misses it.
             let touching = 4.0 * rounding * (shape.plane_weight.sqrt() + shape.sphere_weight.sqrt());
             return (least <= touching).then_some(nearest);
         }
@@ -96,12 +97,13 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
     Some(tau)
 }
 
-/// The same for a start that rounding has put beside the particle so that the ray misses it: from a nearby point inside.
+/// The same for a start that rounding has put beside the particle so that the ray misses it: from a nearby point
+/// inside.
 ///
-/// A sharp particle far from the origin may be thinner than the rounding of a point, which is at most `shift`. Each step
-/// projects the point onto a half-space that holds the particle, that of the tangent to s ≤ 1, and so comes no further from
-/// any point inside. The exact start is inside and within `shift` of the rounded one; so the point that is found lies within
-/// 2·`shift`, or there is none.
+/// A sharp particle far from the origin may be thinner than the rounding of a point, which is at most `shift`. Each
+/// step projects the point onto a half-space that holds the particle, that of the tangent to s ≤ 1, and so comes no
+/// further from any point inside. The exact start is inside and within `shift` of the rounded one; so the point that is
+/// found lies within 2·`shift`, or there is none.
 #[cold]
 pub(crate) fn distance_beside(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, shift: f64) -> Option<f64> {
     let mut point = *from;
@@ -152,8 +154,9 @@ impl Ray<'_> {
 
     /// A distance at which one plane alone gives S = 1, near the least such; at most `farthest`.
     ///
-    /// Newton's method from outside on the largest n·x − d, which is convex along the ray: from plane to plane, to where each gives
-    /// S = 1, taken from the start of the ray, since a crossing may be many orders nearer than the point before.
+    /// Newton's method from outside on the largest n·x − d, which is convex along the ray: from plane to plane, to
+    /// where each gives S = 1, taken from the start of the ray, since a crossing may be many orders nearer than the
+    /// point before.
     #[cold]
     fn beyond_a_plane(&self) -> f64 {
         if self.shape.is_sphere() {
@@ -174,8 +177,8 @@ impl Ray<'_> {
     }
 }
 
-/// Root of v + s·δ + ½c·δ² on the rising branch (s > 0), without cancellation; the Newton step where the quadratic has no
-/// root because its piece ends before the surface.
+/// Root of v + s·δ + ½c·δ² on the rising branch (s > 0), without cancellation; the Newton step where the quadratic has
+/// no root because its piece ends before the surface.
 #[inline]
 pub(crate) fn root_of_piece(v: f64, s: f64, c: f64) -> f64 {
     let discriminant = s * s - 2.0 * c * v;

@@ -20,12 +20,13 @@ use crate::particle::plane_clusters::PlaneClusters;
 use nalgebra::Vector3;
 use std::ops::{Range, RangeInclusive};
 
-/// Most bounding radii in units of r/√(1−k). A plane that bounds the particle along a ray rises by at least the inverse of this along
-/// the ray; depth times rise and the square of the rise, at the surface, are then no smaller than 1e-304 and 1e-300, normal numbers.
+/// Most bounding radii in units of r/√(1−k). A plane that bounds the particle along a ray rises by at least the inverse
+/// of this along the ray; depth times rise and the square of the rise, at the surface, are then no smaller than 1e-304
+/// and 1e-300, normal numbers.
 const MOST_RADII: f64 = 1e150;
 
-/// The bounding radius lies in this range: moments of inertia go with the fifth power of lengths, and the products and squares that are taken of them and of the wrench
-/// of a patch are normal numbers then.
+/// The bounding radius lies in this range: moments of inertia go with the fifth power of lengths, and the products and
+/// squares that are taken of them and of the wrench of a patch are normal numbers then.
 const SIZES: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// A validated definition with its bounding volumes.
@@ -33,8 +34,8 @@ const SIZES: RangeInclusive<f64> = 1e-30..=1e30;
 pub struct Shape {
     /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
     pub(super) rows: Box<[[f64; 4]]>,
-    /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant (`planar`); of a
-    /// boundary 2, 1 or 0.
+    /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant (`planar`);
+    /// of a boundary 2, 1 or 0.
     pub(crate) dimensions: usize,
     pub(crate) rounding_radius: f64,
     pub(crate) sphericity: f64,
@@ -56,8 +57,8 @@ pub struct Shape {
 }
 
 impl Shape {
-    /// Checks and completes a definition. With two dimensions every plane is (a, b, 0, d), and only the cut at z = 0 has to be
-    /// bounded. Of planes that are one within the bounding ball the first counts.
+    /// Checks and completes a definition. With two dimensions every plane is (a, b, 0, d), and only the cut at z = 0
+    /// has to be bounded. Of planes that are one within the bounding ball the first counts.
     pub(crate) fn new(
         planes: &[Plane],
         r: f64,
@@ -173,8 +174,8 @@ impl Shape {
         self.rows.iter().map(|[a, b, c, _]| Vector3::new(*a, *b, *c))
     }
 
-    /// Calls `visit` with index, normal n and excess n·y − d of each plane whose excess may be above −`early`. Returns an
-    /// upper bound on the excess of all other planes.
+    /// Calls `visit` with index, normal n and excess n·y − d of each plane whose excess may be above −`early`. Returns
+    /// an upper bound on the excess of all other planes.
     #[inline(always)]
     pub(crate) fn visit_near(
         &self,
@@ -216,8 +217,9 @@ impl Shape {
         largest
     }
 
-    /// An excess that no neighbour exceeds, and its plane, sought among the planes where the largest one most likely is and from there: seldom
-    /// less than the largest of all, which takes several times as long to find. −∞ when there are no planes.
+    /// An excess that no neighbour exceeds, and its plane, sought among the planes where the largest one most likely is
+    /// and from there: seldom less than the largest of all, which takes several times as long to find. −∞ when there
+    /// are no planes.
     #[inline]
     pub(crate) fn likely_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
         if self.clusters.is_single() {
@@ -293,7 +295,8 @@ fn potential_at_origin(rows: &[[f64; 4]], plane_weight: f64) -> f64 {
     plane_weight * rows.iter().map(|row| (-row[3]).max(0.0)).fold(0.0, |sum, excess| sum + excess * excess)
 }
 
-/// The inverse of the slope of s where the ray along the normal of the nearest plane leaves S = 1 with this plane alone.
+/// The inverse of the slope of s where the ray along the normal of the nearest plane leaves S = 1 with this plane
+/// alone.
 fn depth_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64, shadow_radius: f64) -> f64 {
     let nearest = rows
         .iter()
@@ -315,8 +318,8 @@ fn depth_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64, shadow
     1.0 / (plane_weight * length * excess + sphere_weight * height)
 }
 
-/// s is the length of the vector of all √w⟨n_i·x − d_i⟩ and √m x, each of which changes by no more than without the brackets: so |∇s|² is at most
-/// w times the largest eigenvalue of Σ n_i n_iᵀ, and m.
+/// s is the length of the vector of all √w⟨n_i·x − d_i⟩ and √m x, each of which changes by no more than without the
+/// brackets: so |∇s|² is at most w times the largest eigenvalue of Σ n_i n_iᵀ, and m.
 fn slope_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64) -> f64 {
     let mut squares = Symmetric::default();
     for [a, b, c, _] in rows.iter().filter(|_| plane_weight > 0.0) {

@@ -31,9 +31,11 @@ impl Enclosed {
     }
 }
 
-/// Moments and products of inertia about a point for density 1, ∫ (|x|² 1 − x xᵀ) dV, from faces whose corners are counter-clockwise from outside.
+/// Moments and products of inertia about a point for density 1, ∫ (|x|² 1 − x xᵀ) dV, from faces whose corners are
+/// counter-clockwise from outside.
 ///
-/// Over a tetrahedron at the point with the corners a, b, c beyond: ∫ x xᵀ = V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a + b + c.
+/// Over a tetrahedron at the point with the corners a, b, c beyond: ∫ x xᵀ = V/20 (a aᵀ + b bᵀ + c cᵀ + s sᵀ), s = a +
+/// b + c.
 pub(crate) fn inertia<F: Iterator<Item = Vector3<f64>>>(
     about: &Vector3<f64>,
     faces: impl Iterator<Item = F>,

@@ -1,7 +1,7 @@
 //! A cell on a ray: the stretch on which the active planes do not change.
 //!
-//! In the half-plane of the ray, with h along it and k upwards, both from the start of the cell, S_A and D = S_A − S_B are
-//! quadratics. The patch is the curve D = 0 on the branch where D rises with k.
+//! In the half-plane of the ray, with h along it and k upwards, both from the start of the cell, S_A and D = S_A − S_B
+//! are quadratics. The patch is the curve D = 0 on the branch where D rises with k.
 
 use super::field::Owner;
 
@@ -131,7 +131,8 @@ impl Cell {
         k.is_finite().then_some((k, root))
     }
 
-    /// The first h > 0 where the curve turns back: the discriminant of its height is 0 there. Infinite where it goes on.
+    /// The first h > 0 where the curve turns back: the discriminant of its height is 0 there. Infinite where it goes
+    /// on.
     pub fn turn(&self) -> f64 {
         let d = &self.d;
         let a = d.hk * d.hk - 4.0 * d.kk * d.hh;

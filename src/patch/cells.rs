@@ -1,4 +1,5 @@
-//! The patch in cells, on each of which both potentials are quadratic forms: the faces of the network, cut into curved triangles.
+//! The patch in cells, on each of which both potentials are quadratic forms: the faces of the network, cut into curved
+//! triangles.
 
 use super::curve::Trouble;
 use super::form::Form;
@@ -43,18 +44,20 @@ struct Part {
     error: [f64; 2],
 }
 
-/// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least S: the nearer s = √S
-/// comes to the kink at its 0, the slower the rules converge. Of the coarse and of the fine rule.
+/// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least
+/// S: the nearer s = √S comes to the kink at its 0, the slower the rules converge. Of the coarse and of the fine rule.
 const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
 
 /// Error of the load by the sides over its estimate, at most about.
 const OF_MISFIT: f64 = 3.0;
 
-/// Part of what all may take that the sides may take; where they take more, they are drawn once more, with this part of the tolerance.
+/// Part of what all may take that the sides may take; where they take more, they are drawn once more, with this part of
+/// the tolerance.
 const OF_SIDES: f64 = 0.95;
 const FINER: f64 = 0.25;
 
-/// Error of the coarse rule in a triangle over what all may take, from which on it is tried in no other: about corners all triangles are alike.
+/// Error of the coarse rule in a triangle over what all may take, from which on it is tried in no other: about corners
+/// all triangles are alike.
 const HOPELESS: f64 = 60.0;
 
 /// Part of the tolerance that the rules may take.
@@ -223,7 +226,8 @@ impl CellScratch {
         }
     }
 
-    /// Integrates over a part of a triangle, and puts it in the place of another or after the last; `None` where the patch is no graph.
+    /// Integrates over a part of a triangle, and puts it in the place of another or after the last; `None` where the
+    /// patch is no graph.
     #[inline(always)]
     fn part(&mut self, triangle: u32, corners: &[[f64; 3]; 3], rule: Rule, place: usize) -> Option<&Part> {
         let none = Node { x: [0.0; 3], weight: 0.0, pressure: 0.0, normal: [0.0; 2] };
@@ -248,7 +252,8 @@ impl CellScratch {
     }
 }
 
-/// Cuts the outline of a cell into triangles: from one of its corners, or from its middle; `None` where neither will do.
+/// Cuts the outline of a cell into triangles: from one of its corners, or from its middle; `None` where neither will
+/// do.
 fn cut(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
     let count = outline.len();
     let corner = |i: usize| &outline[i % count];

@@ -1,8 +1,9 @@
 //! Coordinates in which the patch is explicit: the excesses of active planes.
 //!
-//! On the patch of bodies without a sphere, the excesses of the active planes of a body are 1/√w times s times the components of a unit
-//! vector. With the excesses of three planes as coordinates of space (or of two, and the distance along their edge), that of the
-//! last active plane is c + α·coordinates. This relation gives s for any directions of the unit vectors, without a root to be found.
+//! On the patch of bodies without a sphere, the excesses of the active planes of a body are 1/√w times s times the
+//! components of a unit vector. With the excesses of three planes as coordinates of space (or of two, and the distance
+//! along their edge), that of the last active plane is c + α·coordinates. This relation gives s for any directions of
+//! the unit vectors, without a root to be found.
 
 use super::field::{Field, FramePlane, Owner};
 use super::ray::Node;
@@ -122,7 +123,8 @@ impl Wave {
         self.b / (self.size + self.a)
     }
 
-    /// Where, on the side of a sign from the peak, it has fallen to a value, the peak if it never is as high; and the sine of the angle between.
+    /// Where, on the side of a sign from the peak, it has fallen to a value, the peak if it never is as high; and the
+    /// sine of the angle between.
     #[inline(always)]
     pub fn fallen_to(&self, value: f64, sign: f64) -> (f64, f64) {
         let ratio = (value / self.size).clamp(-1.0, 1.0);
@@ -138,8 +140,8 @@ pub(super) fn turn(half: f64) -> (f64, f64, f64) {
     (half * rate, rate - 1.0, rate)
 }
 
-/// A node from the place, the vector of area for a unit of both parameters, s, and the weight. `None` where the patch is no graph, and where
-/// a parameter has no end: a border that is reached at an angle of 0.
+/// A node from the place, the vector of area for a unit of both parameters, s, and the weight. `None` where the patch
+/// is no graph, and where a parameter has no end: a border that is reached at an angle of 0.
 #[inline(always)]
 pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node> {
     let inverse = 1.0 / area.z;

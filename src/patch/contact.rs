@@ -22,7 +22,8 @@ pub(super) const NEAR: f64 = 4.0;
 
 /// The patch of an overlapping contact of midway (of closest, its point and normal will do) of A with B.
 ///
-/// `visit` is called with each point of quadrature; their sums over area · depth · normal and so on are those of the answer.
+/// `visit` is called with each point of quadrature; their sums over area · depth · normal and so on are those of the
+/// answer.
 ///
 /// ```
 /// use potential_particles::{Particle, PatchScratch, PatchSettings, Pose, Settings, detect, patch_of_contact};
@@ -30,7 +31,8 @@ pub(super) const NEAR: f64 = 4.0;
 /// let (left, right) = (Pose::at([0.0, 0.0, 0.0])?, Pose::at([1.99, 0.0, 0.0])?);
 /// let contact = detect(&ball, &left, &ball, &right, &Settings::default(), None)?;
 /// let mut scratch = PatchScratch::new();
-/// let patch = patch_of_contact(&ball, &left, &ball, &right, &contact, &PatchSettings::default(), &mut scratch, |_| ())?;
+/// let settings = PatchSettings::default();
+/// let patch = patch_of_contact(&ball, &left, &ball, &right, &contact, &settings, &mut scratch, |_| ())?;
 /// // K times the volume of a paraboloid, for small overlaps: π R' δ² with 1/R' = 1/R_A + 1/R_B.
 /// let volume = std::f64::consts::PI * 0.5 * 0.01_f64.powi(2);
 /// assert!((patch.force.x / volume - 1.0).abs() < 0.01);
@@ -88,9 +90,10 @@ pub fn patch_on_plane(
 
 /// The patch of an overlapping contact of A with a triangle: the part of the triangle inside A.
 ///
-/// The normal is that of the triangle, turned away from A's side: from the front, where the vertices run counter-clockwise, if
-/// `from_front`, as for the mesh of a closed body seen from outside. Patches of coplanar triangles add up to that of the whole slab, and those of a
-/// closed mesh to the sum of its faces, with force, torque and energy of the mesh.
+/// The normal is that of the triangle, turned away from A's side: from the front, where the vertices run
+/// counter-clockwise, if `from_front`, as for the mesh of a closed body seen from outside. Patches of coplanar
+/// triangles add up to that of the whole slab, and those of a closed mesh to the sum of its faces, with force, torque
+/// and energy of the mesh.
 ///
 /// # Errors
 /// Those of [`patch_of_contact`].

@@ -29,7 +29,8 @@ pub(super) enum Trouble {
 }
 
 impl Walker<'_, '_, '_> {
-    /// Walks to the rim in a half-plane, which is that of the plane `own` or upright; the first cell and the way through it.
+    /// Walks to the rim in a half-plane, which is that of the plane `own` or upright; the first cell and the way
+    /// through it.
     pub fn walk_to_rim(
         &mut self,
         half_plane: &HalfPlane,
@@ -74,8 +75,8 @@ impl Walker<'_, '_, '_> {
         Err(Trouble::Lost)
     }
 
-    /// The curve of a plane through a point of it, from rim to rim: all places where it leaves a cell in `forwards`, of which the first is
-    /// where it leaves the rim, and begins no stretch. `backwards`: a buffer.
+    /// The curve of a plane through a point of it, from rim to rim: all places where it leaves a cell in `forwards`, of
+    /// which the first is where it leaves the rim, and begins no stretch. `backwards`: a buffer.
     pub fn curve(
         &mut self,
         own: usize,

@@ -24,8 +24,9 @@ enum Shape {
     Torus { waves: [Wave; 2], ends: [f64; 2] },
 }
 
-/// The rule of [`Disc::first`]: distances from the middle, and weights of what is integrated with them over the disc. With f a function of the
-/// square u of the distance, it is exact for 1, u, u² and u³, and for √u and u√u, which distances from the middle lead to.
+/// The rule of [`Disc::first`]: distances from the middle, and weights of what is integrated with them over the disc.
+/// With f a function of the square u of the distance, it is exact for 1, u, u² and u³, and for √u and u√u, which
+/// distances from the middle lead to.
 const FIRST: [(f64, f64); 3] = [
     (0.218_242_855_053_144_9, 0.073_261_806_930_278_46),
     (0.599_358_967_604_768, 0.231_317_515_787_878_26),
@@ -66,7 +67,8 @@ impl Disc {
         Some(Self { chart, radii, shape })
     }
 
-    /// A rule of few points, with the errors of ∫ p n and of the area by how fast the powers of the square of the distance fall.
+    /// A rule of few points, with the errors of ∫ p n and of the area by how fast the powers of the square of the
+    /// distance fall.
     pub fn first(&self, mut visit: impl FnMut(Node)) -> Option<[f64; 2]> {
         let points = FIRST_AROUND[usize::from(matches!(self.shape, Shape::Torus { .. }))];
         let mut rings = [[0.0; 4]; 3];

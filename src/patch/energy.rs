@@ -1,8 +1,9 @@
 //! The elastic energy of a patch as an integral over the patch.
 //!
-//! The vector field F(x) = −ŷ/|y|² ∫ (1 − s) τ² dτ, y from the centre of a body to x and τ along ŷ from |y| to the surface, has the
-//! divergence 1 − s and vanishes on the surface (in the plane, with τ and |y| in place of their squares). What lies between the patch and the surface of A therefore holds ∫ −F·n dΣ, and
-//! likewise for B. So the energies of the pieces of a boundary add up, in whatever pieces it is given.
+//! The vector field F(x) = −ŷ/|y|² ∫ (1 − s) τ² dτ, y from the centre of a body to x and τ along ŷ from |y| to the
+//! surface, has the divergence 1 − s and vanishes on the surface (in the plane, with τ and |y| in place of their
+//! squares). What lies between the patch and the surface of A therefore holds ∫ −F·n dΣ, and likewise for B. So the
+//! energies of the pieces of a boundary add up, in whatever pieces it is given.
 
 use super::field::{Field, Owner, Placed, dot};
 use super::ray::Node;
@@ -14,8 +15,8 @@ const POINTS: usize = 5;
 /// Most cells on a way to the surface.
 const MOST_CELLS: usize = 200;
 
-/// −F·n of A, and of B where there is one, at a node, for the normal whose z is 1. As an error, the distance of a point beyond that
-/// within which all planes are loaded.
+/// −F·n of A, and of B where there is one, at a node, for the normal whose z is 1. As an error, the distance of a point
+/// beyond that within which all planes are loaded.
 pub(super) fn density(field: &Field, node: &Node) -> Result<f64, f64> {
     let normal = [node.normal[0], node.normal[1], 1.0];
     let of_a = outwards(field, &field.a, Owner::A, &node.x, &normal)?;

@@ -1,5 +1,5 @@
-//! The integral over a patch: a fan of rays, cut into sectors on which the sequence of cells does not change, refined where the
-//! estimated error is largest.
+//! The integral over a patch: a fan of rays, cut into sectors on which the sequence of cells does not change, refined
+//! where the estimated error is largest.
 
 use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
@@ -13,8 +13,8 @@ const MOST_WORK: usize = 2_000_000;
 /// Most halvings in the search for the direction in which the sequence of cells changes.
 const DEEPEST: u32 = 14;
 
-/// Relative distance of two events on a ray at which it counts as the border between two sequences, as a power of the tolerance: the
-/// error is of second order in it.
+/// Relative distance of two events on a ray at which it counts as the border between two sequences, as a power of the
+/// tolerance: the error is of second order in it.
 const COINCIDENT: f64 = 0.1;
 
 /// Part of the tolerance that the pieces next to a border may take which are not cut off there.
@@ -29,15 +29,17 @@ const ANGULAR: f64 = 0.9;
 /// Part of the tolerance that one rule on a ray may take, over the load of the ray.
 const RADIAL: f64 = 0.1;
 
-/// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then polynomials.
+/// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then
+/// polynomials.
 const STRAIGHT: f64 = 1e-7;
 
-/// Where the ray in the middle of a sector is so many times as long as the way to the middle of the chord between its ends, the sector has a tip, and the part of its load by which
-/// three rays are wrong there at most, about.
+/// Where the ray in the middle of a sector is so many times as long as the way to the middle of the chord between its
+/// ends, the sector has a tip, and the part of its load by which three rays are wrong there at most, about.
 const TIP: f64 = 2.0;
 const OF_TIP: f64 = 0.1;
 
-/// A relative change of the load from one ray to the next is a jump above this, and above so many times the angle between the two.
+/// A relative change of the load from one ray to the next is a jump above this, and above so many times the angle
+/// between the two.
 const JUMP: f64 = 0.1;
 const STEEPEST: f64 = 30.0;
 
@@ -55,7 +57,8 @@ pub(super) struct Sector {
     pub value: [f64; SUMS],
     /// Estimated errors of force, torque about the centre of the fan, area and energy.
     error: [f64; 4],
-    /// The ray whose sequence of cells the sector has, but for a negligible piece at one end; `None` where the whole is negligible.
+    /// The ray whose sequence of cells the sector has, but for a negligible piece at one end; `None` where the whole is
+    /// negligible.
     like: Option<usize>,
 }
 
@@ -85,8 +88,8 @@ pub(super) struct Fan<'w, 'f, 'a, 's> {
     cut: usize,
     /// Whether the most rays, points or planes were used.
     pub is_capped: bool,
-    /// Whether the loads of two neighbouring rays, one of them tilted, differ too much for the angle between them: a part of the patch lies between
-    /// that no ray reaches, as the far side of a rod that goes through the other body.
+    /// Whether the loads of two neighbouring rays, one of them tilted, differ too much for the angle between them: a
+    /// part of the patch lies between that no ray reaches, as the far side of a rod that goes through the other body.
     pub has_jump: bool,
 }
 
@@ -114,7 +117,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         }
     }
 
-    /// Integrates with first rays along an axis and across it; `rough`: ∫ p over the four of them, as far as that is known.
+    /// Integrates with first rays along an axis and across it; `rough`: ∫ p over the four of them, as far as that is
+    /// known.
     pub fn integrate(&mut self, axis: [f64; 2], rough: f64) -> Integral {
         self.rays.clear();
         self.sectors.clear();
@@ -273,7 +277,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         }
     }
 
-    /// Where between two rays, as a part of the chord, the events that come first on either change places; `None` if that is not known.
+    /// Where between two rays, as a part of the chord, the events that come first on either change places; `None` if
+    /// that is not known.
     ///
     /// Inverse distances to straight borders are linear on the chord.
     fn change(&mut self, left: usize, right: usize, m: usize, at_a: &Event, at_b: &Event) -> Option<f64> {
@@ -285,8 +290,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         (first > 0.0 && last > 0.0 && t > 0.0 && t < 1.0).then_some(t)
     }
 
-    /// The ray as the end of the sector on its left and as that on its right, if it meets two events, `i` that comes first on the left
-    /// and `j` on the right, at the same place; else twice itself.
+    /// The ray as the end of the sector on its left and as that on its right, if it meets two events, `i` that comes
+    /// first on the left and `j` on the right, at the same place; else twice itself.
     fn sides(&mut self, middle: usize, m: usize, i: u32, j: u32) -> (usize, usize) {
         let ray = self.rays[middle];
         let Some(&first) = ray.event(m) else { return (middle, middle) };
@@ -332,8 +337,9 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
 
     /// Integrates over a sector with 1, 3 or 7 rays; resolves it where one of them has another sequence of cells.
     ///
-    /// The rays end on a conic about the centre, through the places where the rays at both ends and in the middle leave a cell: a straight
-    /// edge and an ellipse about the centre then cost nothing, as on both equal areas belong to equal steps.
+    /// The rays end on a conic about the centre, through the places where the rays at both ends and in the middle leave
+    /// a cell: a straight edge and an ellipse about the centre then cost nothing, as on both equal areas belong to
+    /// equal steps.
     ///
     /// Whether it is still there.
     fn evaluate(&mut self, index: usize, count: usize) -> bool {

@@ -1,4 +1,5 @@
-//! The potentials in the frame of a patch: origin at the contact point, axes u, v across the normal, z along it, from A to B.
+//! The potentials in the frame of a patch: origin at the contact point, axes u, v across the normal, z along it, from A
+//! to B.
 
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -21,7 +22,8 @@ pub(super) struct FramePlane {
     pub owner: Owner,
 }
 
-/// Rounding of s at a point, in units of the size of the bodies over r: of distances from planes and of the point itself.
+/// Rounding of s at a point, in units of the size of the bodies over r: of distances from planes and of the point
+/// itself.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A particle as seen from the frame.
@@ -38,7 +40,8 @@ pub(super) struct Placed<'a> {
 }
 
 impl<'a> Placed<'a> {
-    /// `branch`: from the centre of the particle to the origin of the frame, world axes; `frame`: its axes as columns, world axes.
+    /// `branch`: from the centre of the particle to the origin of the frame, world axes; `frame`: its axes as columns,
+    /// world axes.
     pub fn new(
         particle: &'a Particle,
         pose: &Pose,
@@ -120,8 +123,8 @@ impl<'a, 's> Field<'a, 's> {
         self.radius
     }
 
-    /// The rounding of s over the depth 1 − s of a patch whose least S this is: the relative error of its force by rounding, at most about.
-    /// √w makes the rounding of distances from planes a part of s.
+    /// The rounding of s over the depth 1 − s of a patch whose least S this is: the relative error of its force by
+    /// rounding, at most about. √w makes the rounding of distances from planes a part of s.
     pub fn rounding(&self, deepest: f64) -> f64 {
         let of = |body: &Placed| body.plane_weight.sqrt() * (body.particle.bounding_radius() + body.origin.norm());
         ROUNDING * (1.0 + self.b.iter().map(of).fold(of(&self.a), f64::max)) / (1.0 - deepest.max(0.0).sqrt())
@@ -198,8 +201,8 @@ impl<'a, 's> Field<'a, 's> {
         }
     }
 
-    /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes and the edges beyond which
-    /// it lies, a bit each.
+    /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes and
+    /// the edges beyond which it lies, a bit each.
     pub fn look(&self, x: &[f64; 3]) -> Look {
         let mut look = Look { s: [0.0, x[2]], gradients: [[0.0; 3], [0.0, 0.0, 1.0]], active: 0 };
         let bodies = [Some(&self.a), self.b.as_ref()];

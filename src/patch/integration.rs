@@ -15,7 +15,8 @@ use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-/// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start anew.
+/// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start
+/// anew.
 const OFF_CENTRE: f64 = 0.25;
 
 /// Most such starts.
@@ -27,8 +28,8 @@ const FINEST_OF_PIECES: f64 = 1e-8;
 /// Least tolerance for which it is taken in cells: the sides of those are parabolas, which stray from the curves.
 const FINEST_OF_CELLS: f64 = 1e-5;
 
-/// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of bodies with many planes
-/// they mostly end in vain.
+/// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of
+/// bodies with many planes they mostly end in vain.
 const FEW: usize = 16;
 
 /// What a patch is computed from.
@@ -54,8 +55,8 @@ pub(super) struct Task<'a> {
 
 /// Computes the patch; its points are handed to `visit`.
 ///
-/// In zones or cells where that is possible, else by rays, as well as with the energy. No finer than the rounding of s allows, over the
-/// depth: faces that touch to rounding would be refined without end.
+/// In zones or cells where that is possible, else by rays, as well as with the energy. No finer than the rounding of s
+/// allows, over the depth: faces that touch to rounding would be refined without end.
 pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
     let PatchScratch { planes, ray_planes, nodes, points, pieces, cells, rays, sectors, stack } = scratch;
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);
@@ -112,7 +113,8 @@ struct Outcome {
     rays: usize,
 }
 
-/// The ways to integrate a patch other than by rays from its middle, which always serve: each gives `None` where it does not serve.
+/// The ways to integrate a patch other than by rays from its middle, which always serve: each gives `None` where it
+/// does not serve.
 ///
 /// None of them has the energy, or the finest tolerances.
 struct Parts<'p, 'f, 'a, 's> {

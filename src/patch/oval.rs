@@ -1,8 +1,8 @@
 //! A patch with a smooth rim: rays at equal steps around an ellipse.
 //!
-//! Where a plane comes on, the pressure changes by the square of the distance beyond. The load of a ray is therefore smooth enough in its
-//! direction for the sum over equal steps to converge with the fourth power of the step, and no direction has to be found in which the
-//! sequence of cells changes.
+//! Where a plane comes on, the pressure changes by the square of the distance beyond. The load of a ray is therefore
+//! smooth enough in its direction for the sum over equal steps to converge with the fourth power of the step, and no
+//! direction has to be found in which the sequence of cells changes.
 
 use super::field::{Owner, dot};
 use super::pieces::Estimate;
@@ -24,8 +24,8 @@ const OF_HALF: f64 = 1.0 / 4.0;
 /// The same of the difference between half and a quarter as many.
 const OF_QUARTER: f64 = 1.0 / 50.0;
 
-/// Error of the sum over the area that the directions of the rim tell of between the rays: at a corner they meet farther out than the
-/// curve that is drawn by them. And over that between half as many.
+/// Error of the sum over the area that the directions of the rim tell of between the rays: at a corner they meet
+/// farther out than the curve that is drawn by them. And over that between half as many.
 const OF_BETWEEN: f64 = 4.0;
 const OF_LAST_BETWEEN: f64 = 0.4;
 
@@ -55,15 +55,16 @@ struct Oval<'w, 'f, 'a, 's> {
 /// Where a ray ends, at R times the radius of the ellipse.
 #[derive(Clone, Copy, Default)]
 struct End {
-    /// 1/R², and its change with the angle on the ellipse: of a straight side, or of another ellipse, a wave of twice the angle.
+    /// 1/R², and its change with the angle on the ellipse: of a straight side, or of another ellipse, a wave of twice
+    /// the angle.
     inverse: f64,
     change: f64,
 }
 
 /// Fills `points`; `None` where the sum has not converged.
 ///
-/// `centre`: a point in the middle of the patch; `axis` and `lengths`: how long the patch is along an axis and across it; `rough`: the load on
-/// four rays along those.
+/// `centre`: a point in the middle of the patch; `axis` and `lengths`: how long the patch is along an axis and across
+/// it; `rough`: the load on four rays along those.
 pub(super) fn oval(
     walker: &mut Walker,
     centre: [f64; 3],
@@ -143,7 +144,8 @@ impl Oval<'_, '_, '_, '_> {
         Some(End { inverse, change: 2.0 * inverse * along(&around) / along(&on) })
     }
 
-    /// How far the area is off by what the directions of the rim at the ends of all rays tell of the places midway between, over the area.
+    /// How far the area is off by what the directions of the rim at the ends of all rays tell of the places midway
+    /// between, over the area.
     fn between(&self) -> f64 {
         let (every, step) = (MOST / self.count, TAU / self.count as f64);
         let (mut area, mut more) = (0.0, 0.0);
@@ -159,7 +161,8 @@ impl Oval<'_, '_, '_, '_> {
         0.5 * more.abs() / area
     }
 
-    /// Whether the edges of a triangle may cut something off, between two rays, too: the load of a ray is not smooth there.
+    /// Whether the edges of a triangle may cut something off, between two rays, too: the load of a ray is not smooth
+    /// there.
     fn meets_edges(&self) -> bool {
         let mut edges = self.walker.field.planes.iter().filter(|plane| plane.owner == Owner::Edge);
         edges.any(|edge| edge.excess + dot(&edge.normal, &self.centre) + BETWEEN * self.extent > 0.0)

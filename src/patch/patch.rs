@@ -5,8 +5,9 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 
 /// The contact patch of two bodies, or of a body and a flat boundary, world axes, lengths in the caller's unit.
 ///
-/// With the scale s of both bodies, Σ = {s_A = s_B ≤ 1} and the pressure p = K ℓ (1 − s) on it; K is the caller's stiffness per area
-/// (force/length³) and all that is proportional to it is given over K. The normal n of Σ points from A to B.
+/// With the scale s of both bodies, Σ = {s_A = s_B ≤ 1} and the pressure p = K ℓ (1 − s) on it; K is the caller's
+/// stiffness per area (force/length³) and all that is proportional to it is given over K. The normal n of Σ points from
+/// A to B.
 #[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -17,7 +18,8 @@ pub struct Patch {
     pub force: Vector3<f64>,
     /// ∫ (x − contact point) × p n dΣ / K: the torque on B about the contact point over K, length⁴.
     pub torque: Vector3<f64>,
-    /// The point of the axis of the wrench that lies in the plane of the patch: where a law applies the force. World frame.
+    /// The point of the axis of the wrench that lies in the plane of the patch: where a law applies the force. World
+    /// frame.
     pub pressure_centre: Vector3<f64>,
     /// The same minus position of A, and of B (of a boundary: of A again).
     pub branch_a: Vector3<f64>,
@@ -41,13 +43,14 @@ pub struct Patch {
     pub largest_depth: f64,
     /// Elastic energy over K, length⁴; NaN unless it was asked for.
     pub energy: f64,
-    /// Change of force and torque on B (rows) with a shift of A and a turn of A about the contact point (columns), over K, while B is held, and with
-    /// it the point of reference and the axes: length² (force by shift) to length⁴ (torque by turn). NaN unless it was asked for and integrated.
+    /// Change of force and torque on B (rows) with a shift of A and a turn of A about the contact point (columns), over
+    /// K, while B is held, and with it the point of reference and the axes: length² (force by shift) to length⁴ (torque
+    /// by turn). NaN unless it was asked for and integrated.
     pub stiffness: Matrix6<f64>,
     /// The farthest point of quadrature from the contact point.
     pub(super) reach: f64,
-    /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the energy, if asked for,
-    /// over itself: the largest.
+    /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the
+    /// energy, if asked for, over itself: the largest.
     pub error: f64,
     /// Estimated relative error of the area.
     pub area_error: f64,
@@ -79,18 +82,21 @@ pub struct PatchPoint {
 pub struct PatchFlags(u32);
 
 impl PatchFlags {
-    /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What turns back is part of the answer, but a part that no
-    /// ray from the contact point reaches may be missing, which the estimated error does not tell: the far side of a rod that goes through the other body, and the like.
+    /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What turns back is
+    /// part of the answer, but a part that no ray from the contact point reaches may be missing, which the estimated
+    /// error does not tell: the far side of a rod that goes through the other body, and the like.
     pub const FOLDED: Self = Self(1);
-    /// The tolerance was not reached with the most rays (1500, or two million planes looked at in all of their cells), or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their
-    /// size at 1e-4); the estimated error tells how far off the answer is.
+    /// The tolerance was not reached with the most rays (1500, or two million planes looked at in all of their cells),
+    /// or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their size at 1e-4); the
+    /// estimated error tells how far off the answer is.
     pub const TOLERANCE_NOT_REACHED: Self = Self(2);
     /// The contact point lies in the core of both bodies, or the boundary reaches through that of A, so that
     /// s is 0 or nearly: the answer is that for a slightly larger sphericity.
     pub const DEEP: Self = Self(4);
     /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
     pub const EMPTY: Self = Self(8);
-    /// It follows from that of an earlier pose by its stiffness ([`crate::PatchState`]): it has no points, and area and moments are those of that pose.
+    /// It follows from that of an earlier pose by its stiffness ([`crate::PatchState`]): it has no points, and area and
+    /// moments are those of that pose.
     pub const CARRIED: Self = Self(16);
 
     const NAMES: [(Self, &'static str); 5] = [

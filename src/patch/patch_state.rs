@@ -1,7 +1,8 @@
 //! What one pair keeps of its patch, from which the next ones follow as long as it hardly moves.
 //!
-//! With B held, force and torque are those of the last integration plus the stiffness times the motion of A since, up to the square of
-//! that motion over the depth of the patch. The axes and the point of reference are held with B, so that nothing else enters.
+//! With B held, force and torque are those of the last integration plus the stiffness times the motion of A since, up
+//! to the square of that motion over the depth of the patch. The axes and the point of reference are held with B, so
+//! that nothing else enters.
 
 use super::contact::{checked, patch_of_contact, patch_on_plane, patch_on_triangle};
 use super::patch::{Patch, PatchFlags};
@@ -18,8 +19,8 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 /// Largest motion over the largest depth up to which a patch is carried on, over the root of the tolerance.
 const FARTHEST: f64 = 0.3;
 
-/// Relative error of force and torque over the square of the motion over the depth: that of a corner, whose force grows with the third power
-/// of the depth.
+/// Relative error of force and torque over the square of the motion over the depth: that of a corner, whose force grows
+/// with the third power of the depth.
 const OF_SQUARE: f64 = 3.0;
 
 /// Relative error of the area over the motion over the depth: that of a corner.
@@ -30,8 +31,9 @@ const OF_SHAPE: f64 = 0.1;
 
 /// The last patch of one ordered pair (A, B), or of a particle and a boundary, with its stiffness.
 ///
-/// A patch follows from it without an integral while no point of the patch has moved by more than 0.3 √tolerance of its largest depth since.
-/// The state is for the two particles for which it was written; of any others, patches are integrated. Empty by default.
+/// A patch follows from it without an integral while no point of the patch has moved by more than 0.3 √tolerance of its
+/// largest depth since. The state is for the two particles for which it was written; of any others, patches are
+/// integrated. Empty by default.
 ///
 /// ```
 /// use potential_particles::{Particle, PatchFlags, PatchScratch, PatchSettings, PatchState, Pose, Settings, detect};
@@ -42,7 +44,8 @@ const OF_SHAPE: f64 = 0.1;
 /// for step in 0..4 {
 ///     let right = Pose::at([1.99 + 1e-6 * f64::from(step), 0.0, 0.0])?;
 ///     let contact = detect(&ball, &left, &ball, &right, &Settings::default(), None)?;
-///     let patch = state.patch_of_contact(&ball, &left, &ball, &right, &contact, &PatchSettings::default(), &mut scratch)?;
+///     let settings = PatchSettings::default();
+///     let patch = state.patch_of_contact(&ball, &left, &ball, &right, &contact, &settings, &mut scratch)?;
 ///     carried.push(patch.flags.contains(PatchFlags::CARRIED));
 /// }
 /// // The stiffness is computed once the pair was seen to move little.
@@ -72,7 +75,8 @@ struct Place {
     /// Local frame of A to that of B, and the centre of A there.
     rotation: Matrix3<f64>,
     centre: Vector3<f64>,
-    /// World axes, for which those of a boundary are taken: the normal of a plane, or two edges of a triangle in an order that tells its front.
+    /// World axes, for which those of a boundary are taken: the normal of a plane, or two edges of a triangle in an
+    /// order that tells its front.
     shape: [Vector3<f64>; 2],
 }
 
@@ -95,7 +99,8 @@ pub(super) struct Now<'a> {
 struct Motion {
     /// Shift and turn about the contact point of that time.
     screw: Vector6<f64>,
-    /// The largest shift of a point of the patch, and what the boundary has changed its shape by, over the largest depth.
+    /// The largest shift of a point of the patch, and what the boundary has changed its shape by, over the largest
+    /// depth.
     size: f64,
     change: f64,
 }
@@ -257,7 +262,8 @@ impl PatchState {
             largest_depth: now.s.map_or(patch.largest_depth, |s| (patch.length * (1.0 - s)).max(0.0)),
             energy: patch.energy + work.dot(&motion.screw),
             stiffness: Matrix6::repeat(f64::NAN),
-            // The stiffness is summed at points that are meant for the force: it is known to about the root of the tolerance.
+            // The stiffness is summed at points that are meant for the force: it is known to about the root of the
+            // tolerance.
             error: patch.error + (OF_SQUARE * motion.size + self.tolerance.sqrt()) * motion.size + motion.change,
             area_error: patch.area_error + OF_AREA * motion.size,
             flags,

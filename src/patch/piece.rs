@@ -16,8 +16,8 @@ const OF_CAPS: [usize; 5] = [1, 2, 3, 5, 8];
 /// Of a disc, outwards and around, after its first rule, which coarse tolerances begin with.
 const OF_DISCS: [[usize; 2]; 3] = [[4, 10], [6, 14], [10, 24]];
 
-/// Estimated error of a cap over its load: by the rule of one point; and by that of two in each angle a constant, which the difference of both rules may
-/// miss by chance, with a factor of the square of that difference.
+/// Estimated error of a cap over its load: by the rule of one point; and by that of two in each angle a constant, which
+/// the difference of both rules may miss by chance, with a factor of the square of that difference.
 const SINGLE: f64 = 0.3;
 const DOUBLE: [f64; 2] = [0.003, 0.3];
 
@@ -57,8 +57,8 @@ impl Piece {
         self.rule += 1 + usize::from(skips);
     }
 
-    /// Appends its points, takes the weight of those of its last rule, and estimates the errors from a coarser rule. `None` where the
-    /// patch is no graph, and after the finest rule.
+    /// Appends its points, takes the weight of those of its last rule, and estimates the errors from a coarser rule.
+    /// `None` where the patch is no graph, and after the finest rule.
     pub fn integrate(&mut self, tolerance: f64, deepest: f64, nodes: &mut Vec<Node>) -> Option<()> {
         nodes[self.nodes.0..self.nodes.1].iter_mut().for_each(|node| node.weight = 0.0);
         let first = nodes.len();

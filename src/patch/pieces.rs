@@ -1,5 +1,5 @@
-//! The patch of bodies without a sphere in pieces that need no search: a polygon with strips and caps around it, the strips and caps of
-//! an edge, or a disc.
+//! The patch of bodies without a sphere in pieces that need no search: a polygon with strips and caps around it, the
+//! strips and caps of an edge, or a disc.
 
 use super::chart::{Vector, normal};
 use super::field::{Field, Owner};
@@ -30,8 +30,8 @@ pub(super) struct Estimate {
     pub rays: usize,
 }
 
-/// Fills `nodes` with points of the patch, on which `start` lies and `deepest` is the least S; `None` where it is not made of such
-/// pieces or its error is above the tolerance.
+/// Fills `nodes` with points of the patch, on which `start` lies and `deepest` is the least S; `None` where it is not
+/// made of such pieces or its error is above the tolerance.
 pub(super) fn pieces(
     field: &mut Field,
     start: &[f64; 3],

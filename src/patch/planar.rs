@@ -15,7 +15,8 @@ use nalgebra::{Matrix3, Vector2, Vector3};
 /// Places of shifts along x and y and of the turn about z among shifts and turns of space.
 pub(super) const AXES: [usize; 3] = [0, 1, 5];
 
-/// The contact patch of two particles of the plane: as [`crate::Patch`], with lengths in place of areas. All per unit of thickness.
+/// The contact patch of two particles of the plane: as [`crate::Patch`], with lengths in place of areas. All per unit
+/// of thickness.
 #[derive(Clone, Copy, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -44,8 +45,8 @@ pub struct Patch {
     pub largest_depth: f64,
     /// Elastic energy over K, length³; NaN unless it was asked for.
     pub energy: f64,
-    /// Change of force and torque about the contact point, over K, with a shift and a turn of A, as [`crate::Patch::stiffness`]: rows and columns
-    /// x, y and angle; world frame. NaN unless it was asked for.
+    /// Change of force and torque about the contact point, over K, with a shift and a turn of A, as
+    /// [`crate::Patch::stiffness`]: rows and columns x, y and angle; world frame. NaN unless it was asked for.
     pub stiffness: Matrix3<f64>,
     /// Estimated error of the force over its size.
     pub error: f64,

@@ -10,7 +10,8 @@ use crate::planar::{Contact, Particle, Pose};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
 impl PatchState {
-    /// As [`crate::planar::patch_of_contact`], carried on where that is possible ([`crate::PatchFlags::CARRIED`]): a state of its own for each pair.
+    /// As [`crate::planar::patch_of_contact`], carried on where that is possible ([`crate::PatchFlags::CARRIED`]): a
+    /// state of its own for each pair.
     ///
     /// # Errors
     /// Those of [`crate::planar::patch_of_contact`].

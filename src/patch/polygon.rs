@@ -8,7 +8,8 @@ use super::rules::gauss;
 /// Sides shorter than this part of the polygon are rounding.
 const SHORTEST: f64 = 1e-12;
 
-/// Points on either side of the foot of a side that is seen under a wide angle: exact for squares of the place along it.
+/// Points on either side of the foot of a side that is seen under a wide angle: exact for squares of the place along
+/// it.
 const HALF: usize = 3;
 
 /// A corner, and the number of the plane that ends the polygon from there on ([`RIM`] where s = 1).
@@ -137,7 +138,8 @@ fn middle(level: &Level, polygon: &[Corner]) -> Option<[f64; 2]> {
 
 /// Points that are exact for pressures times linear functions, and nearly so for distances from the middle of the load.
 ///
-/// In each triangle between that point and a side: two Gauss points for the weight ρ towards the side, two to six along it.
+/// In each triangle between that point and a side: two Gauss points for the weight ρ towards the side, two to six along
+/// it.
 pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>) -> Option<()> {
     let centre = middle(level, polygon)?;
     let root = 6.0_f64.sqrt();
@@ -147,8 +149,9 @@ pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>
         let (a, b) = (corner.at, polygon[(k + 1) % polygon.len()].at);
         let cross = (a[0] - centre[0]) * (b[1] - centre[1]) - (a[1] - centre[1]) * (b[0] - centre[0]);
         let dot = (a[0] - centre[0]) * (b[0] - centre[0]) + (a[1] - centre[1]) * (b[1] - centre[1]);
-        // The distance from the middle varies along a side by the angle under which that is seen. Where it is wide, both sides of the foot are
-        // taken apart, with t as the square of what the rule is for: between the two lies what is nearly a kink.
+        // The distance from the middle varies along a side by the angle under which that is seen. Where it is wide,
+        // both sides of the foot are taken apart, with t as the square of what the rule is for: between the two lies
+        // what is nearly a kink.
         let points = match () {
             () if dot > cross => 2,
             () if dot > 0.5 * cross => 3,

@@ -13,13 +13,15 @@ pub(super) const RIM: u32 = u32::MAX;
 /// Most cells on a ray.
 const MOST_CELLS: usize = 400;
 
-/// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes rules converge slowly there.
+/// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes
+/// rules converge slowly there.
 const STEEP: f64 = 3.0;
 
 /// Incline at the start of a cell from which on they are turned at once; else after half of the bend.
 const GENTLE: f64 = 0.1;
 
-/// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either side.
+/// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either
+/// side.
 const NEAR_TURN: f64 = 0.999;
 
 /// A step back of this part of the size of the bodies is rounding.
@@ -49,7 +51,8 @@ pub(super) struct CellEnd {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub x: [f64; 3],
-    /// Of the area in the plane of the frame, per angle; below 0 where the patch has turned back under itself, so that sums of weight · normal are right there, too.
+    /// Of the area in the plane of the frame, per angle; below 0 where the patch has turned back under itself, so that
+    /// sums of weight · normal are right there, too.
     pub weight: f64,
     /// 1 − s.
     pub pressure: f64,
@@ -71,7 +74,8 @@ impl Node {
 pub(super) struct Event {
     /// Number of the plane, or [`RIM`].
     pub id: u32,
-    /// Distance from the origin of the ray, and height above it; beyond a turn of the patch the way, and nothing of use.
+    /// Distance from the origin of the ray, and height above it; beyond a turn of the patch the way, and nothing of
+    /// use.
     pub rho: f64,
     pub zeta: f64,
     /// Integral of the pressure up to here.
@@ -87,7 +91,8 @@ pub(super) struct Ray {
     pub direction: [f64; 2],
     /// Its nodes.
     pub nodes: (u32, u32),
-    /// ∫ p n, ∫ x × p n about the origin of the ray, ∫ |n|: force, torque and area per angle; and the energy, if asked for.
+    /// ∫ p n, ∫ x × p n about the origin of the ray, ∫ |n|: force, torque and area per angle; and the energy, if asked
+    /// for.
     pub sums: [f64; SUMS],
     /// ∫ p n over the cells that are not flat.
     pub curved: [f64; 3],
@@ -344,8 +349,8 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         next
     }
 
-    /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the first `m` events of a
-    /// ray: where it would be met if nothing else were before.
+    /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the
+    /// first `m` events of a ray: where it would be met if nothing else were before.
     pub fn inverse_distance(&mut self, line: &Line, ray: &Ray, m: usize, id: u32) -> Option<f64> {
         if ray.is_tilted {
             return None;

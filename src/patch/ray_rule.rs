@@ -50,8 +50,8 @@ impl Walker<'_, '_, '_> {
         Ok(())
     }
 
-    /// One rule on a part of a cell: its integrals and the estimated error of ∫ p n; `None` where the patch has turned back. As an error,
-    /// a distance beyond that within which all planes are loaded.
+    /// One rule on a part of a cell: its integrals and the estimated error of ∫ p n; `None` where the patch has turned
+    /// back. As an error, a distance beyond that within which all planes are loaded.
     #[inline(always)]
     fn piece(
         &mut self,
@@ -66,7 +66,8 @@ impl Walker<'_, '_, '_> {
         let rule = gauss(points);
         let [e, f] = line.direction;
         let by_distance = |distance: f64| if line.is_polar { distance } else { 1.0 };
-        // The gradient of D, along the ray, across and upwards, over its slope in the direction in which the height was found; upwards never quite 0.
+        // The gradient of D, along the ray, across and upwards, over its slope in the direction in which the height was
+        // found; upwards never quite 0.
         let gradient = |along: f64, up: f64, rise: f64| {
             let run = 1.0 / rise;
             let (of_along, of_across) = (cell.d.by_h(along, up) * run, cell.d.across(along, up) * run);
@@ -75,7 +76,8 @@ impl Walker<'_, '_, '_> {
         };
         let turned = |n_along: f64, n_across: f64| [n_along * e - n_across * f, n_along * f + n_across * e];
         let mut sums = [0.0; SUMS];
-        // Pressure and its product with the slope of the patch: at the ends by the polynomial through the points, and the largest.
+        // Pressure and its product with the slope of the patch: at the ends by the polynomial through the points, and
+        // the largest.
         let (mut ends, mut largest) = ([[0.0; 4]; 2], [0.0_f64; 2]);
         for (i, (place, weight)) in rule.nodes[..points].iter().enumerate() {
             let along = from + place * (to - from);

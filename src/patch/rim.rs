@@ -5,7 +5,8 @@ use super::field::{Field, Look, Owner, dot};
 /// Most steps of Newton's method.
 const MOST_STEPS: usize = 12;
 
-/// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in it.
+/// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in
+/// it.
 const NEAR: f64 = 1e-5;
 
 /// Weight of a point of quadrature beside a curve over the square of its length.
@@ -55,8 +56,8 @@ impl RimPoint {
     }
 }
 
-/// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; `function` has its value and
-/// gradient. `None` where it is farther than a length.
+/// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; `function`
+/// has its value and gradient. `None` where it is farther than a length.
 fn on_line(
     field: &Field,
     mut x: [f64; 3],
@@ -97,8 +98,8 @@ impl CurvePart {
         [0.25, 0.75].map(|t| parabola([&self.from, &self.middle, &self.to], t))
     }
 
-    /// Estimate of what ∫ p is off where the parabola through the three points strays from the curve: a point of quadrature in between
-    /// counts the square of the plane's excess, or does not.
+    /// Estimate of what ∫ p is off where the parabola through the three points strays from the curve: a point of
+    /// quadrature in between counts the square of the plane's excess, or does not.
     pub fn straying(&self, field: &Field) -> f64 {
         let plane = &field.planes[self.id as usize];
         let (_, length) = across(&self.from, &self.to);
@@ -170,10 +171,11 @@ pub(super) struct Known {
     pub least_beyond: f64,
 }
 
-/// A plane that on an arc is not in the state that is known: where its curve is not drawn that at the origin, else that in the middle of the
-/// arc. Its number, and a point of the arc where it is not.
+/// A plane that on an arc is not in the state that is known: where its curve is not drawn that at the origin, else that
+/// in the middle of the arc. Its number, and a point of the arc where it is not.
 ///
-/// `own`: the planes whose curves end at the ends of the arc. Along a parabola through the three points the excess of a plane is one.
+/// `own`: the planes whose curves end at the ends of the arc. Along a parabola through the three points the excess of a
+/// plane is one.
 pub(super) fn unmet_plane(
     field: &Field,
     [from, middle, to]: [&RimPoint; 3],
@@ -212,7 +214,8 @@ pub(super) fn parabola<const N: usize>([from, middle, to]: [&[f64; N]; 3], t: f6
     std::array::from_fn(|i| p * from[i] + q * middle[i] + r * to[i])
 }
 
-/// The unit vector of the frame's plane across a chord, outwards where the rim runs counter-clockwise, and the length of the chord.
+/// The unit vector of the frame's plane across a chord, outwards where the rim runs counter-clockwise, and the length
+/// of the chord.
 fn across(from: &[f64; 3], to: &[f64; 3]) -> ([f64; 2], f64) {
     let [u, v] = [to[0] - from[0], to[1] - from[1]];
     let length = length_of([u, v]);

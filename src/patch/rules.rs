@@ -20,8 +20,8 @@ pub(super) fn gauss(points: usize) -> &'static Gauss {
     &RULES[points.min(MOST_POINTS) - 1]
 }
 
-/// The rule of `points` points for functions that start with x² or x³, as do area and load of a zone that tapers to its end at x = 0, where its
-/// border leaves the rim like a root or like a line: exact for x² to x^(2n + 1).
+/// The rule of `points` points for functions that start with x² or x³, as do area and load of a zone that tapers to its
+/// end at x = 0, where its border leaves the rim like a root or like a line: exact for x² to x^(2n + 1).
 pub(super) fn tapering(points: usize) -> &'static [(f64, f64)] {
     static RULES: LazyLock<[[(f64, f64); MOST_POINTS]; MOST_POINTS]> =
         LazyLock::new(|| std::array::from_fn(|i| tapered(i + 1)));
@@ -29,7 +29,8 @@ pub(super) fn tapering(points: usize) -> &'static [(f64, f64)] {
     &RULES[points - 1][..points]
 }
 
-/// Gauss' rule for the weight x², by Newton's method for the roots of Jacobi's polynomial of the orders 0 and 2; its weights over x².
+/// Gauss' rule for the weight x², by Newton's method for the roots of Jacobi's polynomial of the orders 0 and 2; its
+/// weights over x².
 fn tapered(points: usize) -> [(f64, f64); MOST_POINTS] {
     let n = points as f64;
     let mut nodes = [(0.0, 0.0); MOST_POINTS];
@@ -80,8 +81,8 @@ fn computed(points: usize) -> Gauss {
     Gauss { nodes, at_end }
 }
 
-/// Tolerance below which rules of few points are not trusted: the error of a rule then counts as much as its difference to a coarser one,
-/// and edges are not made of zones.
+/// Tolerance below which rules of few points are not trusted: the error of a rule then counts as much as its difference
+/// to a coarser one, and edges are not made of zones.
 pub(super) const FINE: f64 = 1e-5;
 
 /// Points in a cell of a ray that starts on the rim of a flat part, or of one of the plane.
@@ -89,8 +90,8 @@ pub(super) fn order_of(tolerance: f64) -> usize {
     if tolerance >= FINE { 3 } else { 5 }
 }
 
-/// Gauss' rule of 3 points and its extension by Kronrod to 7, on [0, 1]: point, weight among 3, weight among 7. The first is the
-/// middle, the first three are Gauss' own.
+/// Gauss' rule of 3 points and its extension by Kronrod to 7, on [0, 1]: point, weight among 3, weight among 7. The
+/// first is the middle, the first three are Gauss' own.
 pub(super) const GAUSS_KRONROD: [(f64, f64, f64); 7] = [
     (0.5, 4.0 / 9.0, 0.225_458_269_329_237_07),
     (0.112_701_665_379_258_31, 5.0 / 18.0, 0.134_244_044_934_166_72),

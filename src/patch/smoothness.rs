@@ -9,7 +9,8 @@ const OF_VARIATION: f64 = 0.05;
 /// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
 const OF_ENDS: [f64; 2] = [0.02, 0.004];
 
-/// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they are.
+/// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they
+/// are.
 pub(super) fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
     if let [load] = loads {
         let off = [0, 1, 2].map(|j| load[j] - 0.5 * (ends[0][j] + ends[1][j]));

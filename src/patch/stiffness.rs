@@ -1,15 +1,16 @@
 //! How force and torque change with the pose of A relative to B.
 //!
-//! With B held, the region of space that B governs changes at the patch alone, whose points move along G = ∇s_A − ∇s_B by (∇s_A·δ)/|G| where
-//! A moves by δ. With the screws g = (∇s, x × ∇s), the change of force and torque on B is therefore −ℓ ∫ g_B (g_A·δ)/|G| dΣ. For a
-//! rigid boundary the pressure alone changes, and −g_B/|G| is the screw of its normal.
+//! With B held, the region of space that B governs changes at the patch alone, whose points move along G = ∇s_A − ∇s_B
+//! by (∇s_A·δ)/|G| where A moves by δ. With the screws g = (∇s, x × ∇s), the change of force and torque on B is
+//! therefore −ℓ ∫ g_B (g_A·δ)/|G| dΣ. For a rigid boundary the pressure alone changes, and −g_B/|G| is the screw of its
+//! normal.
 
 use super::field::{Field, Owner, dot};
 use super::ray::Node;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-/// The integral over ℓ, as the sum over points of the patch, about the origin of the frame and in its axes: rows are force and torque
-/// on B, columns shift and turn of A.
+/// The integral over ℓ, as the sum over points of the patch, about the origin of the frame and in its axes: rows are
+/// force and torque on B, columns shift and turn of A.
 pub(super) fn stiffness(field: &Field, points: &[Node]) -> Matrix6<f64> {
     let mut sum = Matrix6::zeros();
     for node in points {

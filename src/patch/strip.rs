@@ -9,7 +9,8 @@ use super::rules::{MOST_POINTS, gauss, tapering};
 /// Most fixed-point steps towards the corner of a strip.
 const MOST_STEPS: usize = 12;
 
-/// Relative size of a step at which the search for a corner has converged: p is 0 at the corner, so that its error enters the load by a higher power.
+/// Relative size of a step at which the search for a corner has converged: p is 0 at the corner, so that its error
+/// enters the load by a higher power.
 const SETTLED: f64 = 1e-6;
 
 /// Relative size of the last step above which the search for a corner has not converged.
@@ -20,11 +21,13 @@ const UNSETTLED: f64 = 1e-5;
 pub(super) enum End {
     /// At a distance along the edge.
     At(f64),
-    /// Where a plane comes on or the edge of a triangle is met: its value at the origin of the chart, and how that changes with the coordinates.
+    /// Where a plane comes on or the edge of a triangle is met: its value at the origin of the chart, and how that
+    /// changes with the coordinates.
     Line { value: f64, slopes: [f64; 3] },
 }
 
-/// Two planes of a body are active, and one of the other: the angle θ between both, from `start` on, and the distance along the edge.
+/// Two planes of a body are active, and one of the other: the angle θ between both, from `start` on, and the distance
+/// along the edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strip {
     pub chart: Chart,
@@ -37,7 +40,8 @@ pub(super) struct Strip {
     wave: Wave,
     /// The products of the arms across the edge with that along it, and of the second with the first.
     crosses: [Vector; 3],
-    /// The angle over which a strip extends at its ends, and the distance along the edge at its ends, there and at the start.
+    /// The angle over which a strip extends at its ends, and the distance along the edge at its ends, there and at the
+    /// start.
     corners: [(f64, f64); 2],
     starts: [f64; 2],
 }
@@ -133,7 +137,8 @@ impl Strip {
         }
     }
 
-    /// ∫ p over what lies beyond an end where s = 1 at the start, since s falls at first with the angle, about, over the width there.
+    /// ∫ p over what lies beyond an end where s = 1 at the start, since s falls at first with the angle, about, over
+    /// the width there.
     pub fn overhang(&self) -> f64 {
         let Wave { a, b, size } = self.wave;
         let rise = size - a;
@@ -180,7 +185,8 @@ impl Strip {
         let tapers = self.tapers();
         let rule = if tapers.is_some() { tapering(along) } else { &gauss(along).nodes[..along] };
         for (station, (sigma, weight)) in stations.iter_mut().zip(rule) {
-            // Towards such an end it narrows as a root does, or as a line, which the square of the distance makes smooth.
+            // Towards such an end it narrows as a root does, or as a line, which the square of the distance makes
+            // smooth.
             let (tau, weight) = match tapers {
                 None => (*sigma, *weight),
                 Some(0) => (sigma * sigma, 2.0 * sigma * weight),

@@ -136,8 +136,8 @@ impl CurvedTriangle {
         (x, by[0][0] * by[1][1] - by[0][1] * by[1][0])
     }
 
-    /// Whether its Jacobian, a quadratic, is positive at the rule's points. Positive Bernstein coefficients prove it everywhere, and are tried
-    /// first.
+    /// Whether its Jacobian, a quadratic, is positive at the rule's points. Positive Bernstein coefficients prove it
+    /// everywhere, and are tried first.
     pub fn is_regular(&self) -> bool {
         let at_corner = WHOLE.map(|l| self.at(&l).1);
         let in_between = |i: usize| {

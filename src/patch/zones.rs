@@ -30,7 +30,8 @@ impl Zones<'_, '_, '_> {
         })
     }
 
-    /// The polygon of the two planes that face each other most, with strips and caps around it; within, `None` where it is empty.
+    /// The polygon of the two planes that face each other most, with strips and caps around it; within, `None` where it
+    /// is empty.
     pub fn face(&mut self, active: [&[usize]; 2], corners: &mut [Vec<Corner>; 2]) -> Option<Option<(Level, Faces)>> {
         let unit = |k: usize| normal(&self.field.planes[k]).normalize();
         let others: &[usize] = if active[1].is_empty() { &[usize::MAX] } else { active[1] };
@@ -141,7 +142,8 @@ impl Zones<'_, '_, '_> {
         self.push(Kind::Cap(cap), &[outline[0], outline[1], outline[2], corner], &[], neglected);
     }
 
-    /// What planes may change, over an area, that are on at one of these places though they do not count as active, or the reverse.
+    /// What planes may change, over an area, that are on at one of these places though they do not count as active, or
+    /// the reverse.
     fn neglected(&self, places: &[Vector], area: f64, active: &[u32]) -> f64 {
         let mut squares = [0.0_f64; 2];
         // A ball about the first place has them all: most planes pass it by.
@@ -165,13 +167,15 @@ impl Zones<'_, '_, '_> {
         if farthest > self.field.loaded() { f64::INFINITY } else { area * most }
     }
 
-    /// Adds a zone with these places on its border, which ends at `ends`; what else of it lies outside a triangle is neglected, too.
+    /// Adds a zone with these places on its border, which ends at `ends`; what else of it lies outside a triangle is
+    /// neglected, too.
     fn push(&mut self, kind: Kind, border: &[Vector], ends: &[u32], neglected: f64) {
         let neglected = neglected + self.beyond_edges(border, ends);
         self.pieces.push(Piece::new(kind, neglected));
     }
 
-    /// Bound on ∫ p over the part of a zone that lies outside the triangle, since p ≤ 1; the edges in `ends` cut nothing off.
+    /// Bound on ∫ p over the part of a zone that lies outside the triangle, since p ≤ 1; the edges in `ends` cut
+    /// nothing off.
     fn beyond_edges(&self, border: &[Vector], ends: &[u32]) -> f64 {
         let middle = border.iter().sum::<Vector>() / border.len() as f64;
         let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;

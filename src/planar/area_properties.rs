@@ -1,9 +1,10 @@
-//! Area, centroid and second moments of a particle of the plane, and points of its boundary, by adaptive quadrature over rays.
+//! Area, centroid and second moments of a particle of the plane, and points of its boundary, by adaptive quadrature
+//! over rays.
 //!
-//! All angles are divided to begin with where a side of the polygon {n_i·x ≤ d_i + r/√(1−k)} ends, and where beside its end the
-//! next line becomes active. Over the chord between two such points, at height h, and with the boundary at τ p on the ray through
-//! its point p, A = ∫h τ²/2 ds, ∫x dA = ∫h τ³/3 p ds, ∫x xᵀ dA = ∫h τ⁴/4 p pᵀ ds. Then the part of a chord with the largest bound on its
-//! error is halved, as in space (`particle::mass_properties`).
+//! All angles are divided to begin with where a side of the polygon {n_i·x ≤ d_i + r/√(1−k)} ends, and where beside its
+//! end the next line becomes active. Over the chord between two such points, at height h, and with the boundary at τ p
+//! on the ray through its point p, A = ∫h τ²/2 ds, ∫x dA = ∫h τ³/3 p ds, ∫x xᵀ dA = ∫h τ⁴/4 p pᵀ ds. Then the part of a
+//! chord with the largest bound on its error is halved, as in space (`particle::mass_properties`).
 
 use super::raised;
 use crate::particle::gauge::{Gauge, OnRay, Piece, Undecided};
@@ -128,13 +129,14 @@ fn refined(intervals: Vec<Interval>, gauge: &Gauge, norm: &Norm, tolerance: f64)
     heap.into_vec()
 }
 
-/// Points of the boundary in order, so that no chord between two of them is further than `tolerance` (length) from the boundary.
+/// Points of the boundary in order, so that no chord between two of them is further than `tolerance` (length) from the
+/// boundary.
 pub(super) fn outline(shape: &Shape, tolerance: f64) -> Vec<Vector2<f64>> {
     let point = |angle: f64| radius(shape, angle) * Vector2::new(angle.cos(), angle.sin());
     let angles = angles(shape);
     let mut points = Vec::new();
-    // The boundary is convex, so that it is farthest from a chord near the middle of its angles; a half of the tolerance
-    // covers what it is farther elsewhere.
+    // The boundary is convex, so that it is farthest from a chord near the middle of its angles; a half of the
+    // tolerance covers what it is farther elsewhere.
     let mut left: Vec<[(f64, Vector2<f64>); 2]> =
         angles.windows(2).rev().map(|ends| [(ends[0], point(ends[0])), (ends[1], point(ends[1]))]).collect();
     while let Some([(from, start), (to, end)]) = left.pop() {
@@ -230,7 +232,8 @@ impl Interval {
     }
 }
 
-/// A point of the rule, the surface on the ray through it, and the relative change of the moments that a change of g makes.
+/// A point of the rule, the surface on the ray through it, and the relative change of the moments that a change of g
+/// makes.
 type Node = (Vector3<f64>, OnRay, f64);
 
 /// A bound on the error that lines make which are active in a part of the interval only.
@@ -250,8 +253,8 @@ fn jump(piece: &Piece, corners: &[Vector3<f64>; 2], along: &Vector3<f64>, nodes:
     if sum > 0.0 { sensitivity(piece, nodes) * sum.min(gap(nodes)) } else { sum }
 }
 
-/// The largest sensitivity, also between the nodes: it is at most of degree −5 in g, of which the tangents at the nodes give a
-/// lower bound.
+/// The largest sensitivity, also between the nodes: it is at most of degree −5 in g, of which the tangents at the nodes
+/// give a lower bound.
 fn sensitivity(piece: &Piece, nodes: &[Node]) -> f64 {
     let of_part = |part: &[Node]| {
         let (before, after) = (&part[0], &part[1]);

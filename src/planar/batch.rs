@@ -10,9 +10,9 @@ use crate::settings::Settings;
 
 /// Contacts of many pairs of bodies of the plane: [`crate::detect_batch`] with two coordinates.
 ///
-/// Body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`, first A, then B. The answers come in the
-/// order of the pairs, and each is, to the last bit, what [`detect()`] gives for that pair alone, whatever the number of
-/// threads. `states` holds one state for each pair, or nothing.
+/// Body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`, first A, then B. The answers come
+/// in the order of the pairs, and each is, to the last bit, what [`detect()`] gives for that pair alone, whatever the
+/// number of threads. `states` holds one state for each pair, or nothing.
 ///
 /// ```
 /// use potential_particles::planar::{Particle, Pose, detect_batch};

@@ -52,9 +52,9 @@ impl Particle {
 
     /// A convex polygon with rounded corners, about its centroid, by points of which the corners are the convex hull.
     ///
-    /// Its sides lie where those of the polygon are (for k = 0; for k > 0 they bulge by about k·r/2 and less than the corners
-    /// recede). The shadow circle goes through the outermost corner. r: rounding radius, length, less than the distance of
-    /// each side from the centroid. k: sphericity, in [0, 1].
+    /// Its sides lie where those of the polygon are (for k = 0; for k > 0 they bulge by about k·r/2 and less than the
+    /// corners recede). The shadow circle goes through the outermost corner. r: rounding radius, length, less than the
+    /// distance of each side from the centroid. k: sphericity, in [0, 1].
     ///
     /// ```
     /// use potential_particles::planar::Particle;
@@ -71,8 +71,8 @@ impl Particle {
         Self::new(&polygon.lines(r)?, r, k, polygon.radius())
     }
 
-    /// A regular polygon, as [`Particle::polygon`] makes it; radius: of the circle through its corners, the first of which
-    /// lies on the x axis.
+    /// A regular polygon, as [`Particle::polygon`] makes it; radius: of the circle through its corners, the first of
+    /// which lies on the x axis.
     ///
     /// # Errors
     /// Fewer than three sides, a radius that is not positive and finite, and those of [`Particle::polygon`].
@@ -113,8 +113,8 @@ impl Particle {
         self.0.hessian(&raised(x)).fixed_view::<2, 2>(0, 0).into()
     }
 
-    /// Distance τ ≥ 0 along a local direction of any length from a local point inside to the boundary, length; `None` if the direction is zero or a
-    /// number is not finite.
+    /// Distance τ ≥ 0 along a local direction of any length from a local point inside to the boundary, length; `None`
+    /// if the direction is zero or a number is not finite.
     pub fn surface_distance(&self, from: &Vector2<f64>, direction: &Vector2<f64>) -> Option<f64> {
         self.0.surface_distance(&raised(from), &raised(direction))
     }
@@ -128,8 +128,8 @@ impl Particle {
         Ok(area_properties::of(&self.0, tolerance))
     }
 
-    /// Points of the boundary in order, so dense that a chord between two neighbours is within `tolerance` (length) of the
-    /// boundary: the boundary is at most that far outside. At most a million or so, whatever the tolerance.
+    /// Points of the boundary in order, so dense that a chord between two neighbours is within `tolerance` (length) of
+    /// the boundary: the boundary is at most that far outside. At most a million or so, whatever the tolerance.
     ///
     /// # Errors
     /// A tolerance that is not positive and finite.
@@ -173,8 +173,8 @@ impl Particle {
         self.0.bounding_radius()
     }
 
-    /// Corners of a polygon, local frame, length, in no order. Corners nearer to each other than 1e-6 of the distance of the farthest one
-    /// are merged: enlarged by as much, the polygon holds the whole particle.
+    /// Corners of a polygon, local frame, length, in no order. Corners nearer to each other than 1e-6 of the distance
+    /// of the farthest one are merged: enlarged by as much, the polygon holds the whole particle.
     pub fn bounding_corners(&self) -> impl ExactSizeIterator<Item = Vector2<f64>> + '_ {
         self.0.bounding_corners().iter().map(|corner| corner.xy())
     }

@@ -36,7 +36,8 @@ pub struct Pose {
 }
 
 impl Pose {
-    /// From a position and the paper's angle θ: radians, anticlockwise, local to world, from −2³⁰ to 2³⁰. It counts as exact.
+    /// From a position and the paper's angle θ: radians, anticlockwise, local to world, from −2³⁰ to 2³⁰. It counts as
+    /// exact.
     ///
     /// # Errors
     /// A position or angle that is not finite, or an angle beyond that range.

@@ -175,7 +175,8 @@ struct Pass {
     trusted: bool,
 }
 
-/// The correction with the first settings that give a trusted one, else the first one solved, else clarabel's last status.
+/// The correction with the first settings that give a trusted one, else the first one solved, else clarabel's last
+/// status.
 fn correct(
     pair: &Pair,
     goal: Goal,

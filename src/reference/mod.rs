@@ -12,25 +12,25 @@
 //! planes     n_i·x − d_i ≤ p_i,  p_i ≥ 0                              (40–43)
 //! ```
 //!
-//! (44) has an equality, s_A = s_B. Where the two can be equal at the optimum, the inequalities give the same point; where
-//! one s is below the other even at the minimum of the other, they give that minimum, which the equality would exclude. The
-//! concise programs follow from zero weights: for k = 0 the cone loses x_c (dimension 1 + N), for k = 1 it loses p_c and
-//! the particle its rows (1 + 3).
-//! Local points x are kept as unknowns instead of x_c, so that k = 0 needs no case of its own.
+//! (44) has an equality, s_A = s_B. Where the two can be equal at the optimum, the inequalities give the same point;
+//! where one s is below the other even at the minimum of the other, they give that minimum, which the equality would
+//! exclude. The concise programs follow from zero weights: for k = 0 the cone loses x_c (dimension 1 + N), for k = 1 it
+//! loses p_c and the particle its rows (1 + 3). Local points x are kept as unknowns instead of x_c, so that k = 0 needs
+//! no case of its own.
 //!
 //! # Scaling by successive corrections
 //!
 //! An interior-point method is accurate to some 1e-9 of the largest number in the program. With lengths of order 1 and
-//! r = 1e-8 that is an error of s of order 0.1. Therefore the program is solved several times, each time as a correction to
-//! the point found before:
+//! r = 1e-8 that is an error of s of order 0.1. Therefore the program is solved several times, each time as a
+//! correction to the point found before:
 //!
 //! 1. once for the whole particles, about their centres, lengths in units of the smaller bounding
 //!    radius; this gives the initial point;
-//! 2. then with x = x₀ + h·δ, δ unknown, inside the box |δ_B| ≤ 1. Right-hand sides become the slacks
-//!    d_i − n_i·x₀ at the last point, which are small and accurate for the planes that can be active. A plane that
-//!    no point of the box can reach has p_i = 0 in all of it and is left out. If the correction ends near the boundary of its
-//!    box, the box is moved and enlarged; otherwise h shrinks, down to the distance over which s changes by a tenth (some
-//!    tenth of r or R/√k, times s), or until s no longer changes.
+//! 2. then with x = x₀ + h·δ, δ unknown, inside the box |δ_B| ≤ 1. Right-hand sides become the slacks d_i − n_i·x₀ at
+//!    the last point, which are small and accurate for the planes that can be active. A plane that no point of the box
+//!    can reach has p_i = 0 in all of it and is left out. If the correction ends near the boundary of its box, the box
+//!    is moved and enlarged; otherwise h shrinks, down to the distance over which s changes by a tenth (some tenth of r
+//!    or R/√k, times s), or until s no longer changes.
 //!
 //! In every pass p_c and s are counted in units of s at the last point (1 for the constrained
 //! particle), which makes the entries of the cones of order 1; rows are divided by |n_i|. clarabel's
@@ -45,10 +45,10 @@
 //! - clarabel reports the pass as solved or almost solved;
 //! - s = √S at the returned point, clarabel's objective and its dual objective agree to 1e-8 or better,
 //!   and the constraint holds to the same; s as returned is always that of the definition;
-//! - one of the passes bounds s from below to 1e-5, also for points outside its box: the dual objective
-//!   less the most by which the duals of the box and the dual residual can lower it between the box and the far end of
-//!   the pair. This is a worst case that detects an optimum in the wrong place; measured errors of s are 1e-9 and below, or
-//!   what the rounding of x does to s (ε·size·√(1−k)/r) where that is more.
+//! - one of the passes bounds s from below to 1e-5, also for points outside its box: the dual objective less the most
+//!   by which the duals of the box and the dual residual can lower it between the box and the far end of the pair. This
+//!   is a worst case that detects an optimum in the wrong place; measured errors of s are 1e-9 and below, or what the
+//!   rounding of x does to s (ε·size·√(1−k)/r) where that is more.
 //!
 //! Otherwise the answer is a [`ConeProgramError`].
 //!

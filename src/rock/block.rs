@@ -33,8 +33,8 @@ pub struct BlockFace {
     pub plane: Plane,
     /// Area.
     pub area: f64,
-    /// The part of it that lies in the true extent of its joint, a disc or polygon: what else of it was rock. All of it where the joint has no end,
-    /// 0 on other planes.
+    /// The part of it that lies in the true extent of its joint, a disc or polygon: what else of it was rock. All of it
+    /// where the joint has no end, 0 on other planes.
     pub jointed_area: f64,
     /// Its corners among those of the block.
     first: u32,
@@ -53,15 +53,17 @@ pub struct Block {
     pub faces: Vec<BlockFace>,
     /// Corners of all faces, one face after the other ([`Block::corners_of`]), axes and origin of the domain.
     pub corners: Vec<Vector3<f64>>,
-    /// Blocks of the same number were one before regions cut it: where none of them lies inside a region they are still one piece of rock.
+    /// Blocks of the same number were one before regions cut it: where none of them lies inside a region they are still
+    /// one piece of rock.
     pub parent: usize,
     /// The region that it lies in, by its index.
     pub region: Option<usize>,
 }
 
 impl Block {
-    /// From the faces of a polyhedron about `origin`, and a point inside; `plane`: what they come from and their unit normals and heights, by their numbers;
-    /// `shared`: what a joint's extent shares with corners in its plane, `None` of one without end.
+    /// From the faces of a polyhedron about `origin`, and a point inside; `plane`: what they come from and their unit
+    /// normals and heights, by their numbers; `shared`: what a joint's extent shares with corners in its plane, `None`
+    /// of one without end.
     pub(super) fn of(
         outlines: &Outlines,
         inside: &Vector3<f64>,
@@ -101,7 +103,8 @@ impl Block {
         volume::inertia(&self.centroid, self.faces.iter().map(|face| self.corners_of(face).iter().copied()))
     }
 
-    /// The block as a particle about its centroid, its edges and corners rounded by r, length, with faces where they are (k = 0).
+    /// The block as a particle about its centroid, its edges and corners rounded by r, length, with faces where they
+    /// are (k = 0).
     ///
     /// # Errors
     /// As of [`Particle::new`]: r that is not above 0, or not below the distance of the nearest face from the centroid.

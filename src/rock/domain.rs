@@ -13,18 +13,19 @@ use std::ops::RangeInclusive;
 /// Least depth of a cut over the size of the domain: some rounding of corners.
 const LEAST_CUT: f64 = 1e-13;
 
-/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin: the second where it does not end in
-/// the first, as a flat one.
+/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin: the
+/// second where it does not end in the first, as a flat one.
 const FAR: [f64; 2] = [1e4, 1e8];
 
-/// Half extents of domains. Fifth powers of lengths, as moments of inertia are, and those of blocks a millionth as large, are doubles with all their
-/// digits.
+/// Half extents of domains. Fifth powers of lengths, as moments of inertia are, and those of blocks a millionth as
+/// large, are doubles with all their digits.
 const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
 
 /// A unit normal, and the height of its plane above some origin.
 pub(crate) type Oriented = (Vector3<f64>, f64);
 
-/// What each face comes from, with unit normal and height above the origin of the polyhedra, in the order of their numbers.
+/// What each face comes from, with unit normal and height above the origin of the polyhedra, in the order of their
+/// numbers.
 pub(super) fn faces(
     outer: &[Oriented],
     joints: &[Joint],
@@ -70,7 +71,8 @@ pub(crate) fn enclosed(planes: &[Oriented]) -> Result<(Vector3<f64>, Polyhedron)
     }
 }
 
-/// Cut from a cube, and from smaller ones about its middle, as corners that are cut from a cube far away are known less well.
+/// Cut from a cube, and from smaller ones about its middle, as corners that are cut from a cube far away are known less
+/// well.
 fn enclosed_within(planes: &[Oriented], mut half: f64) -> Result<(Vector3<f64>, Polyhedron), RockError> {
     let (mut origin, mut cutter) = (Vector3::zeros(), Cutter::default());
     for _ in 0..4 {

@@ -7,8 +7,8 @@ use crate::rock::joint::Joint;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::HashSet;
 
-/// Up to so many pairs or triples are all looked at. Of more a sample is drawn, of as many at most and of so many at least: each costs a look at every joint, and the whole
-/// so many looks.
+/// Up to so many pairs or triples are all looked at. Of more a sample is drawn, of as many at most and of so many at
+/// least: each costs a look at every joint, and the whole so many looks.
 const MOST_DRAWN: usize = 20_000;
 const LEAST_DRAWN: usize = 1_000;
 const MOST_LOOKS: usize = 4_000_000;
@@ -27,13 +27,13 @@ struct Crossing<'a> {
     joints: Vec<&'a Joint>,
 }
 
-/// 1 + n + L + P: with n joints that meet the domain, the L lines inside in which two of them cross and the P points in which three do, as planes
-/// in general position make. A line in which m planes meet counts as m − 1, and a point as ½(m − 1)(m − 2), as Zaslavsky's count of the regions of an
-/// arrangement has it.
+/// 1 + n + L + P: with n joints that meet the domain, the L lines inside in which two of them cross and the P points in
+/// which three do, as planes in general position make. A line in which m planes meet counts as m − 1, and a point as
+/// ½(m − 1)(m − 2), as Zaslavsky's count of the regions of an arrangement has it.
 ///
-/// Of many joints L and P are estimated from pairs and triples drawn by chance, and taken as low as chance allows. What may be less than it seems is
-/// left out: joints in the plane of another one, and those that end and have their middle outside. Joints that end are counted in their own extent,
-/// and cut more. So the number is rather too low.
+/// Of many joints L and P are estimated from pairs and triples drawn by chance, and taken as low as chance allows. What
+/// may be less than it seems is left out: joints in the plane of another one, and those that end and have their middle
+/// outside. Joints that end are counted in their own extent, and cut more. So the number is rather too low.
 pub(super) fn expected_blocks(domain: &Polyhedron, outer: &[Oriented], joints: &[Joint]) -> f64 {
     let [low, high] = domain.extremes();
     let size = (high - low).norm();
@@ -107,8 +107,8 @@ impl Crossing<'_> {
         self.joints.iter().filter(is_on).count() as f64
     }
 
-    /// The share of two joints in the line in which they cross: 2/m of m planes, so that its pairs add up to m − 1; 0 where nothing is left of it when
-    /// domain and extents have cut it.
+    /// The share of two joints in the line in which they cross: 2/m of m planes, so that its pairs add up to m − 1; 0
+    /// where nothing is left of it when domain and extents have cut it.
     fn line(&self, [i, j]: [usize; 2]) -> f64 {
         let [a, b] = [self.joints[i], self.joints[j]];
         let along = a.normal.cross(&b.normal);
@@ -142,7 +142,8 @@ impl Crossing<'_> {
         if low < high { 2.0 / self.through(&[from + low * along, from + high * along]).max(2.0) } else { 0.0 }
     }
 
-    /// The share of three joints in the point in which they meet: 3/m of m planes; 0 where it is not in the domain and in each.
+    /// The share of three joints in the point in which they meet: 3/m of m planes; 0 where it is not in the domain and
+    /// in each.
     fn point(&self, chosen: [usize; 3]) -> f64 {
         let of = chosen.map(|i| self.joints[i]);
         let rows = Matrix3::from_rows(&of.map(|joint| joint.normal.transpose()));
@@ -199,7 +200,8 @@ mod tests {
         }
     }
 
-    /// Planes through an axis, through a point, a grid with its diagonals, one plane many times, discs beside the domain.
+    /// Planes through an axis, through a point, a grid with its diagonals, one plane many times, discs beside the
+    /// domain.
     #[test]
     fn planes_that_meet_are_not_counted_too_often() {
         let mut random = Random::new(9, 0);

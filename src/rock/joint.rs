@@ -20,15 +20,16 @@ pub struct Joint {
     pub point: Vector3<f64>,
     /// Unit normal.
     pub normal: Vector3<f64>,
-    /// Radius of a disc, length; infinite of a joint without end; of a polygon that of a disc about the point that holds it.
+    /// Radius of a disc, length; infinite of a joint without end; of a polygon that of a disc about the point that
+    /// holds it.
     pub radius: f64,
     /// Corners of a polygon in their order, as [`Joint::polygon`] makes it.
     pub outline: Option<Arc<[Vector3<f64>]>>,
 }
 
 impl Joint {
-    /// The plane through a point that descends most, by the angle `dip` in degrees, towards the azimuth `dip_direction` in degrees, clockwise
-    /// from north: its normal is (sin δ sin α, sin δ cos α, cos δ) and points upwards.
+    /// The plane through a point that descends most, by the angle `dip` in degrees, towards the azimuth `dip_direction`
+    /// in degrees, clockwise from north: its normal is (sin δ sin α, sin δ cos α, cos δ) and points upwards.
     ///
     /// # Errors
     /// A point or angle that is not finite, and a dip outside [0, 90].
@@ -50,11 +51,12 @@ impl Joint {
         Self { point: point.into(), normal: normal.into(), radius: f64::INFINITY, outline: None }
     }
 
-    /// A convex polygon, by its corners in their order: trace and dip length of a mapped joint as a rectangle, a face of a fracture network.
+    /// A convex polygon, by its corners in their order: trace and dip length of a mapped joint as a rectangle, a face
+    /// of a fracture network.
     ///
     /// # Errors
-    /// Fewer than three corners, corners that are not finite, on one line, off their plane by more than 10⁻⁶ of the size, or not those of
-    /// a convex polygon.
+    /// Fewer than three corners, corners that are not finite, on one line, off their plane by more than 10⁻⁶ of the
+    /// size, or not those of a convex polygon.
     pub fn polygon<T: Into<Vector3<f64>> + Clone>(corners: &[T]) -> Result<Self, RockError> {
         let corners: Arc<[Vector3<f64>]> = corners.iter().cloned().map(Into::into).collect();
         let count = corners.len();
@@ -144,7 +146,8 @@ impl Joint {
         }
     }
 
-    /// Whether a line along a side of `first` has both polygons on its two sides: of two convex polygons that are apart, some side of one does.
+    /// Whether a line along a side of `first` has both polygons on its two sides: of two convex polygons that are
+    /// apart, some side of one does.
     fn is_parted(&self, first: &[Vector3<f64>], other: &[Vector3<f64>]) -> bool {
         sides(first).any(|(from, side)| {
             let across = side.cross(&self.normal);
@@ -169,8 +172,8 @@ impl Joint {
     }
 }
 
-/// The sides of a polygon with the corners at which they begin, but for those so short that their direction is rounding: where more than three planes meet
-/// in a point, faces have such sides.
+/// The sides of a polygon with the corners at which they begin, but for those so short that their direction is
+/// rounding: where more than three planes meet in a point, faces have such sides.
 fn sides(polygon: &[Vector3<f64>]) -> impl Iterator<Item = (Vector3<f64>, Vector3<f64>)> {
     let size = polygon.iter().map(|at| (at - polygon[0]).norm()).fold(0.0, f64::max);
     let all = polygon.iter().zip(polygon.iter().cycle().skip(1)).map(|(from, to)| (*from, to - from));
@@ -196,7 +199,8 @@ mod tests {
         assert!(joint.with_radius(0.0).is_err());
     }
 
-    /// Against the same question for many points of both, whose answer is yes where a point of one lies in the other or sides cross.
+    /// Against the same question for many points of both, whose answer is yes where a point of one lies in the other or
+    /// sides cross.
     #[test]
     fn polygons_meet_where_they_share_points() {
         let mut random = Random::new(5, 0);

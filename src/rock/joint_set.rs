@@ -10,7 +10,8 @@ use std::f64::consts::{PI, TAU};
 /// More are taken for a mistake.
 const MOST_JOINTS: f64 = 1e7;
 
-/// A joint set: dip and dip direction as of [`Joint::new`], in degrees, and the mean spacing of its joints across it, length.
+/// A joint set: dip and dip direction as of [`Joint::new`], in degrees, and the mean spacing of its joints across it,
+/// length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointSet {
     /// Mean dip, degrees.
@@ -21,10 +22,12 @@ pub struct JointSet {
     pub spacing: f64,
     /// Whether spacings are drawn from an exponential distribution, instead of all the same.
     pub exponential: bool,
-    /// κ of Fisher's distribution of normals, infinite for none: half of them lie within arccos(1 + ln(½)/κ), about, of the mean.
+    /// κ of Fisher's distribution of normals, infinite for none: half of them lie within arccos(1 + ln(½)/κ), about, of
+    /// the mean.
     pub fisher: f64,
-    /// Radius of its joints as discs, length, infinite for joints without end. Discs lie anywhere in the ball of that radius beyond the
-    /// reach, as many as make the mean distance of crossings on a line along the mean normal the spacing; `exponential` has no meaning then.
+    /// Radius of its joints as discs, length, infinite for joints without end. Discs lie anywhere in the ball of that
+    /// radius beyond the reach, as many as make the mean distance of crossings on a line along the mean normal the
+    /// spacing; `exponential` has no meaning then.
     pub radius: f64,
     /// The numbers drawn depend on this and on the order of the joints only.
     pub seed: u64,
@@ -36,11 +39,12 @@ impl JointSet {
         Self { dip, dip_direction, spacing, exponential: false, fisher: f64::INFINITY, radius: f64::INFINITY, seed: 0 }
     }
 
-    /// Its joints within `reach` of `centre`, both lengths: those that cross the line through it along the mean normal, of equal spacings one at
-    /// `centre`; discs that reach into the ball.
+    /// Its joints within `reach` of `centre`, both lengths: those that cross the line through it along the mean normal,
+    /// of equal spacings one at `centre`; discs that reach into the ball.
     ///
     /// # Errors
-    /// Numbers that are not finite, a dip outside [0, 90], a spacing, reach, radius or κ that is not above 0, more than 10⁷ joints.
+    /// Numbers that are not finite, a dip outside [0, 90], a spacing, reach, radius or κ that is not above 0, more than
+    /// 10⁷ joints.
     pub fn joints(&self, centre: impl Into<Vector3<f64>>, reach: f64) -> Result<Vec<Joint>, RockError> {
         within(self.spacing, self.spacing > 0.0, "spacing", "above 0")?;
         within(reach, reach > 0.0, "reach", "above 0")?;
@@ -71,8 +75,8 @@ impl JointSet {
         Ok(joints)
     }
 
-    /// A line across discs of one orientation, ν in a unit of volume, meets ν π R² of them in a unit of length; where they scatter, that
-    /// times the mean of |cos θ|, (κ − 1 + 2 q − (κ + 1) q²) / (κ (1 − q²)) with q = e^(−κ).
+    /// A line across discs of one orientation, ν in a unit of volume, meets ν π R² of them in a unit of length; where
+    /// they scatter, that times the mean of |cos θ|, (κ − 1 + 2 q − (κ + 1) q²) / (κ (1 − q²)) with q = e^(−κ).
     fn discs(&self, mean: &Joint, radius: f64, random: &mut Random) -> Result<Vec<Joint>, RockError> {
         let ball = 4.0 / 3.0 * PI * radius.powi(3);
         let met = ball / (self.spacing * PI * self.radius.powi(2) * mean_cosine(self.fisher));
@@ -142,7 +146,8 @@ mod tests {
         assert!((cos - 0.95).abs() < 4.0 * 0.05 / (joints.len() as f64).sqrt(), "{cos}");
     }
 
-    /// Of a line through the middle: crossings at the mean distance that was asked for, and as many in the ball as there are discs in it.
+    /// Of a line through the middle: crossings at the mean distance that was asked for, and as many in the ball as
+    /// there are discs in it.
     #[test]
     fn discs_cross_a_line_at_the_spacing() {
         for fisher in [f64::INFINITY, 30.0] {

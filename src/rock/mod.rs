@@ -1,4 +1,5 @@
-//! Rock masses: a convex domain cut into blocks by its joints, one after the other (Boon, Houlsby & Utili 2015, Computers and Geotechnics 65).
+//! Rock masses: a convex domain cut into blocks by its joints, one after the other (Boon, Houlsby & Utili 2015,
+//! Computers and Geotechnics 65).
 //!
 //! A joint cuts the blocks that it meets in two. Each file uses only those above it:
 //!

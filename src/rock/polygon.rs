@@ -24,7 +24,8 @@ pub(super) fn clip(corners: &mut Vec<Vector2<f64>>, inside: impl Fn(&Vector2<f64
     *corners = kept;
 }
 
-/// Signed area that the triangle of the origin, a and b shares with a circle about the origin: counter-clockwise counts positive.
+/// Signed area that the triangle of the origin, a and b shares with a circle about the origin: counter-clockwise counts
+/// positive.
 pub(super) fn within_circle(radius: f64, a: &Vector2<f64>, b: &Vector2<f64>) -> f64 {
     // By the difference, which keeps its digits far from the origin.
     let cross = |p: &Vector2<f64>, q: &Vector2<f64>| p.perp(&(q - p));

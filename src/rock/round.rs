@@ -1,8 +1,9 @@
 //! A round: what a run of joints makes of many parts, on several threads.
 //!
-//! What is cut off one part never depends on the others. So a thread takes a part and cuts it by all joints of the round: first what lies below the first
-//! joint that meets it, piece by piece, then what lies beyond. What it works on stays in its cache and is not kept. The pieces come in the same order whichever rounds
-//! there are: those of a part in its place, what lies below a joint before what lies beyond.
+//! What is cut off one part never depends on the others. So a thread takes a part and cuts it by all joints of the
+//! round: first what lies below the first joint that meets it, piece by piece, then what lies beyond. What it works on
+//! stays in its cache and is not kept. The pieces come in the same order whichever rounds there are: those of a part in
+//! its place, what lies below a joint before what lies beyond.
 
 use crate::contact::batch::in_parallel;
 use crate::rock::cutting::{Cuts, LeftOut, Part, Workbench};
@@ -49,8 +50,8 @@ struct Pending {
     joint: usize,
 }
 
-/// What the joints of a range make of the parts. `finish` appends to the results what it makes of a piece, whose number in its chunk it is told. An error if there are
-/// more pieces than `most`.
+/// What the joints of a range make of the parts. `finish` appends to the results what it makes of a piece, whose number
+/// in its chunk it is told. An error if there are more pieces than `most`.
 pub(super) fn cut<T: Send>(
     threads: usize,
     parts: &[Part],
@@ -77,7 +78,8 @@ pub(super) fn cut<T: Send>(
     Ok(Round { chunks, missing, left_out })
 }
 
-/// What the joints make of some parts; `count` has the pieces that all threads have told of. It ends early where these are more than the limit.
+/// What the joints make of some parts; `count` has the pieces that all threads have told of. It ends early where these
+/// are more than the limit.
 fn chunk<T>(
     parts: &[Part],
     cuts: &Cuts<'_>,

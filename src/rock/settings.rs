@@ -7,15 +7,18 @@ use crate::rock::error::{RockError, within};
 pub struct SliceSettings {
     /// A joint leaves a block whole if one of its parts would have less than this volume.
     pub least_volume: f64,
-    /// Or be thinner than this in the mean, 2V/A of volume and surface: of a wide slab its thickness, of a cube a third of its edge.
+    /// Or be thinner than this in the mean, 2V/A of volume and surface: of a wide slab its thickness, of a cube a third
+    /// of its edge.
     pub least_thickness: f64,
     /// Or if the largest ball in a part would have a smaller diameter than this, the paper's limit on size.
     pub least_width: f64,
     /// Or if its extent along x, y or z would be more than so many times that diameter.
     pub largest_aspect: f64,
-    /// More blocks than this are an error: where none of the limits above is set, it is told before the first joint cuts if more are expected.
+    /// More blocks than this are an error: where none of the limits above is set, it is told before the first joint
+    /// cuts if more are expected.
     pub most_blocks: usize,
-    /// How many threads cut, the calling one among them; 0 is 1. The blocks and their order are, to the last bit, the same for any number.
+    /// How many threads cut, the calling one among them; 0 is 1. The blocks and their order are, to the last bit, the
+    /// same for any number.
     pub threads: usize,
 }
 

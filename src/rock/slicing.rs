@@ -17,19 +17,22 @@ const ROUNDS: usize = 100;
 /// Parts for each thread from which on a round is as long as [`PIECES`] says: fewer may be of unlike cost.
 const FEW: usize = 64;
 
-/// Pieces that a round should add, which takes a fraction of a second; with four times as many it is given up, and done again with half its joints.
+/// Pieces that a round should add, which takes a fraction of a second; with four times as many it is given up, and done
+/// again with half its joints.
 const PIECES: usize = 1 << 17;
 
 /// What a domain was cut into.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct RockMass {
-    /// The blocks, whose volumes sum to that of the domain. Of what a joint cuts in two, what lies below it comes first, then what lies beyond, each with all
-    /// that later joints make of it: neighbours are often near in this order.
+    /// The blocks, whose volumes sum to that of the domain. Of what a joint cuts in two, what lies below it comes
+    /// first, then what lies beyond, each with all that later joints make of it: neighbours are often near in this
+    /// order.
     pub blocks: Vec<Block>,
     /// Joints that cut no block.
     pub missing: Vec<usize>,
-    /// How many cuts were left out because of the limits, or as a part would have been no thicker than the rounding of its corners.
+    /// How many cuts were left out because of the limits, or as a part would have been no thicker than the rounding of
+    /// its corners.
     pub too_small: usize,
     /// How many blocks were left whole where the parts of a cut would not have closed, by rounding.
     pub unclosed: usize,
@@ -37,23 +40,24 @@ pub struct RockMass {
     pub joints: usize,
 }
 
-/// Cuts a convex domain {x : n_i·x ≤ d_i for all planes} by joints, in their order. A joint cuts each block that it meets in two; a disc or polygon
-/// cuts all of a block that it reaches, as in the paper.
+/// Cuts a convex domain {x : n_i·x ≤ d_i for all planes} by joints, in their order. A joint cuts each block that it
+/// meets in two; a disc or polygon cuts all of a block that it reaches, as in the paper.
 ///
 /// # Errors
-/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a limit that is none, more blocks
-/// than allowed.
+/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a limit that is
+/// none, more blocks than allowed.
 pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Result<RockMass, RockError> {
     slice_with_regions(domain, joints, &[], settings, |_, _| true)
 }
 
-/// The same with convex regions, which cut the blocks that they meet after all joints: a tunnel, a bench, or what a domain that is not
-/// convex leaves out. A block is then cut plane by plane into what lies in the region, in the first one of several, and the parts beside
-/// it, which keep its [`Block::parent`]. Parts smaller than the settings allow are not made: one in the region stays with what is beside it, one
-/// beside it with what is in the region.
+/// The same with convex regions, which cut the blocks that they meet after all joints: a tunnel, a bench, or what a
+/// domain that is not convex leaves out. A block is then cut plane by plane into what lies in the region, in the first
+/// one of several, and the parts beside it, which keep its [`Block::parent`]. Parts smaller than the settings allow are
+/// not made: one in the region stays with what is beside it, one beside it with what is in the region.
 ///
-/// `progress` is called before the first joint, and again after every few, with the number of joints that have cut and of blocks that there are; where it
-/// returns false, the joints that are left do not cut ([`RockMass::joints`]), and the regions still do.
+/// `progress` is called before the first joint, and again after every few, with the number of joints that have cut and
+/// of blocks that there are; where it returns false, the joints that are left do not cut ([`RockMass::joints`]), and
+/// the regions still do.
 ///
 /// # Errors
 /// As of [`slice()`], and a plane of a region that is none.
@@ -137,8 +141,8 @@ impl RockMass {
     }
 }
 
-/// How many joints of `all` the next round has, after `done` of them have made so many parts: the number of blocks grows as the cube of that of the joints,
-/// unless these all belong to one set.
+/// How many joints of `all` the next round has, after `done` of them have made so many parts: the number of blocks
+/// grows as the cube of that of the joints, unless these all belong to one set.
 fn round_length(done: usize, all: usize, parts: usize, settings: &SliceSettings) -> usize {
     let by_count = (all / ROUNDS).max(1);
     let by_pieces = if parts < FEW * settings.threads.max(1) {

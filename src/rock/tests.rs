@@ -77,7 +77,8 @@ fn planes_in_general_position_make_as_many_blocks_as_they_must() {
     }
 }
 
-/// Both sides of each joint have the same area, every block lies within its own planes, and its particle is as large but for its edges.
+/// Both sides of each joint have the same area, every block lies within its own planes, and its particle is as large
+/// but for its edges.
 #[test]
 fn faces_agree_with_their_partners_and_blocks_with_their_planes() {
     let domain = cuboid([3.0, 3.0, 3.0], [0.0; 3]);
@@ -121,7 +122,8 @@ fn sets_through_lines_and_corners_make_a_grid() {
     assert!(mass.blocks.len() == 20 && (volume(&mass) - 8.0).abs() < 1e-12, "{}", mass.blocks.len());
 }
 
-/// Planes through one point, and copies of them that are off by less and less: no block is of no volume, and together they are the domain.
+/// Planes through one point, and copies of them that are off by less and less: no block is of no volume, and together
+/// they are the domain.
 #[test]
 fn planes_that_all_but_coincide_lose_no_volume() {
     for seed in 0..30 {
@@ -220,7 +222,8 @@ fn flat_parts_are_left_out() {
     }
 }
 
-/// A tunnel through a grid, and a second region across it: volumes by their closed forms, parents whole again, nothing counted twice.
+/// A tunnel through a grid, and a second region across it: volumes by their closed forms, parents whole again, nothing
+/// counted twice.
 #[test]
 fn regions_part_the_blocks_that_they_meet() {
     let domain = cuboid([4.0, 4.0, 4.0], [0.0; 3]);
@@ -238,7 +241,8 @@ fn regions_part_the_blocks_that_they_meet() {
         let pieces = mass.blocks.iter().filter(|block| block.parent == parent);
         assert!((pieces.map(|block| block.volume).sum::<f64>() - 8.0).abs() < 1e-13);
     }
-    // What is too small stays on the other side: the region takes the centimetre that it leaves, and no 2 cm beside a joint are cut off.
+    // What is too small stays on the other side: the region takes the centimetre that it leaves, and no 2 cm beside a
+    // joint are cut off.
     let (narrow, least) =
         (cuboid([1.99, 9.0, 9.0], [1.005, 0.0, 0.0]), SliceSettings { least_thickness: 0.03, ..settings });
     let wide = slice_with_regions(&domain, &joints[..1], &[narrow], &least, |_, _| true).unwrap();
@@ -315,7 +319,8 @@ fn bad_domains_are_told() {
     let few = SliceSettings { most_blocks: 2000, ..none };
     let RockError::TooManyExpected { expected, most: 2000 } = error(&domain, &joints, &few) else { panic!("many") };
     assert!((expected / slice(&domain, &joints, &none).unwrap().blocks.len() as f64 - 1.0).abs() < 1e-12);
-    // With a limit on size, the joint that makes one block too many is found by the counts, however many joints a round has.
+    // With a limit on size, the joint that makes one block too many is found by the counts, however many joints a round
+    // has.
     let none = SliceSettings { least_volume: f64::MIN_POSITIVE, ..none };
     let count = |joints: &[Joint]| slice(&domain, joints, &none).unwrap().blocks.len();
     for most_blocks in [5, 100, 2000] {

@@ -8,8 +8,8 @@ use crate::linalg::root::{self, Bracket};
 /// A parameter as (1−λ, λ): both ends are equally precise.
 pub(super) type Parameter = [f64; 2];
 
-/// Relative step at which the search for a root ends. The square of it is left in the parameter, and the square of that in
-/// an area, since both arcs are equally far from the contact point where they cross.
+/// Relative step at which the search for a root ends. The square of it is left in the parameter, and the square of that
+/// in an area, since both arcs are equally far from the contact point where they cross.
 const LAST_STEP: f64 = 1e-7;
 
 /// Where a quadratic with c₀ ≤ 0 ≤ c₂ rises through zero; if it vanishes everywhere, the end.

@@ -1,7 +1,7 @@
 //! The boundary of one cross-section: arc by arc, counter-clockwise, once around.
 //!
-//! A predictor–corrector method: an arc of the current conic leads to where the next line becomes active or inactive, and
-//! Newton steps correct its end to S = 1.
+//! A predictor–corrector method: an arc of the current conic leads to where the next line becomes active or inactive,
+//! and Newton steps correct its end to S = 1.
 
 use super::arc::Arc;
 use super::cross_section::{CrossSection, Evaluation};
@@ -10,8 +10,8 @@ use super::plane_section::Failure;
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_1_SQRT_2;
 
-/// Rays at which every arc is divided, so that none spans half a turn. The boundary begins at the last one. Points on one
-/// of them are multiples of each other without rounding.
+/// Rays at which every arc is divided, so that none spans half a turn. The boundary begins at the last one. Points on
+/// one of them are multiples of each other without rounding.
 const RAYS: [Vector2<f64>; 3] =
     [Vector2::new(0.0, 1.0), Vector2::new(-FRAC_1_SQRT_2, -FRAC_1_SQRT_2), Vector2::new(1.0, 0.0)];
 
@@ -92,8 +92,8 @@ impl<'s> Boundary<'s> {
         self.is_complete() && gap.abs() <= MISS * f64::EPSILON * self.rounding
     }
 
-    /// The next arc. Fails when there is none, and when S ≠ 1 at its end by more than rounding, which is the check that the
-    /// active set was right.
+    /// The next arc. Fails when there is none, and when S ≠ 1 at its end by more than rounding, which is the check that
+    /// the active set was right.
     pub fn next_arc(&mut self) -> Result<Arc, Failure> {
         let ray = RAYS.get(self.rays).ok_or(Failure::Inaccurate)?;
         self.arcs += 1;
@@ -125,12 +125,13 @@ impl<'s> Boundary<'s> {
         Ok(arc)
     }
 
-    /// Parameter and kind of the first event on the conic, the arc that leads there and the step from its beginning to its end.
+    /// Parameter and kind of the first event on the conic, the arc that leads there and the step from its beginning to
+    /// its end.
     fn first_event(&mut self, ray: &Vector2<f64>) -> Result<(f64, Event, Arc, Vector2<f64>), Failure> {
         let curve = &self.curve;
         let (determinant, twice_inwards) = (curve.determinant(), 2.0 * curve.inwards());
-        // The least parameter below `limit` at which an excess that is ≥ 0 at the base turns negative. On the conic it is
-        // (excess + 2bτ + aτ²)/(1 + τ²·det M).
+        // The least parameter below `limit` at which an excess that is ≥ 0 at the base turns negative. On the conic it
+        // is (excess + 2bτ + aτ²)/(1 + τ²·det M).
         let crossing = |excess: f64, rate: &Vector2<f64>, limit: f64| {
             let b = curve.half_gradient.perp(rate);
             let a = excess * determinant + rate.dot(&twice_inwards);
@@ -170,8 +171,8 @@ impl<'s> Boundary<'s> {
         }
     }
 
-    /// Moves the current point to where S = 1 and the line of the event has no excess, both to rounding: the next arc would
-    /// inherit the error.
+    /// Moves the current point to where S = 1 and the line of the event has no excess, both to rounding: the next arc
+    /// would inherit the error.
     fn correct(&mut self, event: Event) {
         for _ in 0..MOST_CORRECTIONS {
             let Evaluation { value, half_gradient, .. } = self.here;

@@ -6,8 +6,8 @@
 //! S(y) − 1 = w·Σ ⟨at_origin_i + rate_i·y⟩² + s·|y − y₀|² + constant
 //! ```
 //!
-//! It is summed as the change since the origin, whose value and slope are rounded only once: S then has the same relative
-//! precision in a tiny cross-section as in a large one.
+//! It is summed as the change since the origin, whose value and slope are rounded only once: S then has the same
+//! relative precision in a tiny cross-section as in a large one.
 
 use super::depth;
 use super::edge_curve::{EdgeCurve, quarter_turn};
@@ -52,8 +52,8 @@ impl Evaluation {
 /// Multiple of the estimated rounding of S up to which a point counts as on the boundary.
 const ON_BOUNDARY: f64 = 4.0 * f64::EPSILON;
 
-/// 1 − S at the contact point, as a multiple of the estimate of its rounding, below which it is evaluated in double-double.
-/// Above, its relative error and with it that of the area is at most 1e-11; the estimate is ample.
+/// 1 − S at the contact point, as a multiple of the estimate of its rounding, below which it is evaluated in
+/// double-double. Above, its relative error and with it that of the area is at most 1e-11; the estimate is ample.
 const SMALL: f64 = 1e11;
 
 /// S − 1 up to which a contact point counts as on the surface: what a solver may leave.
@@ -200,9 +200,9 @@ impl<'s> CrossSection<'s> {
 
     /// Distance to the boundary along the ray of a unit direction.
     ///
-    /// The root of the quadratic at the current point is exact once the active lines are those of the root. Before that,
-    /// a root outside the bracket is replaced by a Newton step from beyond the boundary, which does not overshoot since S
-    /// is convex.
+    /// The root of the quadratic at the current point is exact once the active lines are those of the root. Before
+    /// that, a root outside the bracket is replaced by a Newton step from beyond the boundary, which does not overshoot
+    /// since S is convex.
     pub fn ray(&mut self, direction: &Vector2<f64>) -> Result<f64, Failure> {
         let mut bracket = Bracket { low: 0.0, high: f64::INFINITY };
         let (mut newton, mut distance) = (f64::NAN, 0.0);

@@ -1,7 +1,7 @@
 //! 1 − S at the contact point, in double-double.
 //!
-//! It sets the size of a cross-section. In doubles S is known to ε·(1 + 2·size/r), while 1 − S is about 2·overlap/r: where
-//! the particles hardly overlap, no digit of it would be left.
+//! It sets the size of a cross-section. In doubles S is known to ε·(1 + 2·size/r), while 1 − S is about 2·overlap/r:
+//! where the particles hardly overlap, no digit of it would be left.
 
 use super::plane_section::PlaneSection;
 use crate::linalg::double_double::DoubleDouble;

@@ -5,8 +5,8 @@ use nalgebra::Vector2;
 
 /// A conic through `base`: S − 1 = 2·q·h + hᵀMh at base + h, with q half the gradient at the base.
 ///
-/// M is held in the frame of the stiffest direction: along a stiff edge and across it its entries are 16 and more decades
-/// apart where r = 1e-8 of the size, and in another frame the small one would be lost to rounding.
+/// M is held in the frame of the stiffest direction: along a stiff edge and across it its entries are 16 and more
+/// decades apart where r = 1e-8 of the size, and in another frame the small one would be lost to rounding.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EdgeCurve {
     pub base: Vector2<f64>,
@@ -46,8 +46,8 @@ impl EdgeCurve {
         (arc, step)
     }
 
-    /// Estimated rounding of S at the end of such an arc, in units of ε, to first order: of both ends, of the direction of the
-    /// tangent at the base, and of the end along the soft direction.
+    /// Estimated rounding of S at the end of such an arc, in units of ε, to first order: of both ends, of the direction
+    /// of the tangent at the base, and of the end along the soft direction.
     ///
     /// `length`: distances of both ends from the origin, added up.
     pub fn rounding(&self, tau: f64, arc: &Arc, end_gradient: &Vector2<f64>, length: f64) -> f64 {

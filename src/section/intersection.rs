@@ -83,8 +83,8 @@ fn inner_sector(a: &Arc, b: &Arc, curve_b: &EdgeCurve) -> f64 {
         return b.sector();
     }
     let mut comparison = Comparison { a: *a, b: *b, a_is_inner: None, area: 0.0 };
-    // Behind the chord of B, A is the inner arc. The part of A beyond that chord is an interval, since A is convex; there
-    // the sign of S of B decides, as its conic and its arc are the same.
+    // Behind the chord of B, A is the inner arc. The part of A beyond that chord is an interval, since A is convex;
+    // there the sign of S of B decides, as its conic and its arc are the same.
     let Some((start, end)) = positive_interval([beyond[0], a.weight * beyond[1], beyond[2]]) else {
         return a.sector();
     };
@@ -139,8 +139,8 @@ impl Comparison {
         self.isolate(part, quartic, [[1.0, 0.0], [0.0, 1.0]], negligible, DEEPEST);
     }
 
-    /// The same for the quartic over a range of the parameter of `part`, by bisection until one sign change is left. Values
-    /// below `negligible` have no sign.
+    /// The same for the quartic over a range of the parameter of `part`, by bisection until one sign change is left.
+    /// Values below `negligible` have no sign.
     fn isolate(&mut self, part: &Arc, c: [f64; 5], [low, high]: [Parameter; 2], negligible: f64, deeper: u32) {
         let at = |parameter: Parameter| part.split_at(parameter).0.to;
         let between = |[u, t]: Parameter| [u * low[0] + t * high[0], u * low[1] + t * high[1]];

@@ -23,8 +23,8 @@ pub(super) struct Line {
 
 /// Multiple of the rounding of an excess below which its sign means nothing.
 ///
-/// The product rate·y has a relative error of γ₂ = ε and the rounding of y adds ε/2, both in units of |y|·|rate|₁; with the
-/// sum that makes 2ε. The factor four on top is an estimate of what a sequence of steps adds.
+/// The product rate·y has a relative error of γ₂ = ε and the rounding of y adds ε/2, both in units of |y|·|rate|₁; with
+/// the sum that makes 2ε. The factor four on top is an estimate of what a sequence of steps adds.
 pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Line {
@@ -56,8 +56,8 @@ impl Line {
 
     /// Moves to the point y by a step from the current point.
     ///
-    /// The excess of a line that passed close to the current point is more precise as a sum with the step than from y: a
-    /// corner may be sharper than the rounding of y.
+    /// The excess of a line that passed close to the current point is more precise as a sum with the step than from y:
+    /// a corner may be sharper than the rounding of y.
     #[inline]
     pub fn move_by(&mut self, y: &Vector2<f64>, distance: f64, step: &Vector2<f64>, step_length: f64) {
         let length = self.length + step_length;
@@ -153,8 +153,8 @@ impl<'s> Lines<'s> {
         self.radius
     }
 
-    /// Loads the lines up to a distance, but at most twice as far as before. The new lines move to y, a point within the
-    /// distance loaded before.
+    /// Loads the lines up to a distance, but at most twice as far as before. The new lines move to y, a point within
+    /// the distance loaded before.
     pub fn load_towards(&mut self, distance: f64, y: &Vector2<f64>) -> Result<(), Failure> {
         let known = self.used;
         self.load(distance.min(2.0 * self.loaded).min(self.radius))?;

@@ -1,8 +1,8 @@
 //! The contact area: the area in which both particles meet the plane through the contact point, in closed form.
 //!
 //! In that plane S is piecewise quadratic, so that the boundary S = 1 of each cross-section is a closed convex curve of
-//! conic arcs. Both boundaries are traced arc by arc, and over every angle at which neither changes its arc the inner of
-//! the two contributes its sector. Each file uses only those above it:
+//! conic arcs. Both boundaries are traced arc by arc, and over every angle at which neither changes its arc the inner
+//! of the two contributes its sector. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|
@@ -64,20 +64,22 @@ impl From<&crate::Contact> for Section {
 impl Section {
     /// Area of the intersection of both particles with this plane, length².
     ///
-    /// In closed form: measured against 40-digit areas it is right to 1e-12 of the area, or to ε·size/r where that is more,
-    /// so that it changes as continuously as the section does. The error of the section itself is not included: a contact
-    /// point that is off by δ along the normal changes the area by a relative δ/overlap or so.
+    /// In closed form: measured against 40-digit areas it is right to 1e-12 of the area, or to ε·size/r where that is
+    /// more, so that it changes as continuously as the section does. The error of the section itself is not included: a
+    /// contact point that is off by δ along the normal changes the area by a relative δ/overlap or so.
     ///
-    /// The end of every arc is checked against S = 1. Where rounding makes that check fail (in less than 1 section of 1,000
-    /// at r = 1e-8 of the size, hardly ever above 1e-6), adaptive quadrature over rays answers to `relative_tolerance`, or
-    /// to 1e-9 if that is more; the tolerance matters for nothing else. The run time is proportional to the number of arcs
-    /// times that of the planes close to them. Nothing is allocated unless more than 256 planes come close.
+    /// The end of every arc is checked against S = 1. Where rounding makes that check fail (in less than 1 section of
+    /// 1,000 at r = 1e-8 of the size, hardly ever above 1e-6), adaptive quadrature over rays answers to
+    /// `relative_tolerance`, or to 1e-9 if that is more; the tolerance matters for nothing else. The run time is
+    /// proportional to the number of arcs times that of the planes close to them. Nothing is allocated unless more than
+    /// 256 planes come close.
     ///
     /// This was measured down to r = 1e-6 of a particle's least width. At 1e-9 a cross-section may be thinner than the
     /// rounding of its boundary, and about 1 area in 1,000 is wrong.
     ///
-    /// `None` when the section has no finite point or normal, and when the contact point lies outside a particle, that is
-    /// S > 1 + 1e-6 by more than rounding: what a solver leaves counts as on the surface; and where the tolerance is not a number.
+    /// `None` when the section has no finite point or normal, and when the contact point lies outside a particle, that
+    /// is S > 1 + 1e-6 by more than rounding: what a solver leaves counts as on the surface; and where the tolerance is
+    /// not a number.
     pub fn area(
         &self,
         a: &Particle,

@@ -14,7 +14,8 @@ const SECTORS: usize = 12;
 /// Deepest halving of one sector.
 const DEEPEST: u32 = 24;
 
-/// Part of its share of the tolerance to which a sector's estimates must agree: the errors of several sectors may add up.
+/// Part of its share of the tolerance to which a sector's estimates must agree: the errors of several sectors may add
+/// up.
 const SAFETY: f64 = 0.125;
 
 /// Least relative tolerance: where this is needed, rounding leaves no more digits.
@@ -23,7 +24,8 @@ const LEAST_TOLERANCE: f64 = 1e-9;
 /// Most rays: some seconds for some hundreds of planes.
 const MOST_RAYS: u32 = 1_000_000;
 
-/// Area by Simpson's rule, to a relative tolerance of at least [`LEAST_TOLERANCE`]. `None` when a ray is not finite, or the most rays do not do.
+/// Area by Simpson's rule, to a relative tolerance of at least [`LEAST_TOLERANCE`]. `None` when a ray is not finite, or
+/// the most rays do not do.
 pub(super) fn area(sections: &[PlaneSection; 2], relative_tolerance: f64) -> Option<f64> {
     let left = Cell::new(MOST_RAYS);
     let half_square = |angle: f64| {
@@ -66,8 +68,8 @@ impl Sector {
         self.width / 6.0 * (start + 4.0 * middle + end)
     }
 
-    /// Halved until both estimates agree to the tolerance, which is the same at every depth: halved as well, it would soon
-    /// be below the rounding of the rays.
+    /// Halved until both estimates agree to the tolerance, which is the same at every depth: halved as well, it would
+    /// soon be below the rounding of the rays.
     fn integral(&self, f: &impl Fn(f64) -> Option<f64>, tolerance: f64, deeper: u32) -> Option<f64> {
         let half = 0.5 * self.width;
         let [start, middle, end] = self.values;

@@ -25,7 +25,8 @@ pub enum ShapeError {
     /// Fewer than four points.
     #[error("{0} points enclose no volume: at least 4 are needed")]
     TooFewPoints(usize),
-    /// All points lie in a plane, to a share of 1e-6 of their extent, at which neighbouring faces are one, or as far as their coordinates tell.
+    /// All points lie in a plane, to a share of 1e-6 of their extent, at which neighbouring faces are one, or as far as
+    /// their coordinates tell.
     #[error(
         "the {0} points are flat: all lie in one plane, to 1e-6 of their extent or to the last digit of their coordinates; give points that are \
          farther apart, or, if they are, nearer to the origin"
@@ -46,7 +47,8 @@ pub enum ShapeError {
          its planes are from the origin"
     )]
     Open,
-    /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at which faces are one.
+    /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at
+    /// which faces are one.
     #[error("the planes enclose a body that is flat, to 1e-6 of its extent: move them apart")]
     Thin,
     /// There is no regular solid of so many faces.

@@ -1,8 +1,9 @@
-//! The convex hull of points as triangles, exact: which side of a plane a point lies on is decided without rounding (J. R. Shewchuk's predicates,
-//! by the crate `robust`).
+//! The convex hull of points as triangles, exact: which side of a plane a point lies on is decided without rounding (J.
+//! R. Shewchuk's predicates, by the crate `robust`).
 //!
-//! Quickhull (Barber, Dobkin and Huhdanpaa 1996): a tetrahedron grows by the farthest point above one of its triangles. The triangles below that point are connected; those in
-//! whose plane it lies do not count. Triangles from the point to the edges around them take their place. Each point is kept with one triangle that it lies above.
+//! Quickhull (Barber, Dobkin and Huhdanpaa 1996): a tetrahedron grows by the farthest point above one of its triangles.
+//! The triangles below that point are connected; those in whose plane it lies do not count. Triangles from the point to
+//! the edges around them take their place. Each point is kept with one triangle that it lies above.
 
 use super::error::ShapeError;
 use crate::particle::coplanar;
@@ -63,7 +64,8 @@ pub(super) fn triangles(points: &[Vector3<f64>]) -> Result<Vec<[u32; 3]>, ShapeE
 struct Hull<'a> {
     points: &'a [Vector3<f64>],
     triangles: Vec<Triangle>,
-    /// Of a point that is being added: the triangles that it sees, and for each corner the edge around them that begins there.
+    /// Of a point that is being added: the triangles that it sees, and for each corner the edge around them that begins
+    /// there.
     seen: Vec<u32>,
     leaving: Vec<u32>,
 }
@@ -87,7 +89,8 @@ impl<'a> Hull<'a> {
         }
         let [a, b, c] = if height < 0.0 { plane } else { [plane[0], plane[2], plane[1]] };
         let d = d as u32;
-        // Beyond the edges of the base are the three sides, in the order of their edges; beyond those of a side the base and the other two.
+        // Beyond the edges of the base are the three sides, in the order of their edges; beyond those of a side the
+        // base and the other two.
         let sides = [([a, b, c], [1, 2, 3]), ([b, a, d], [0, 3, 2]), ([c, b, d], [0, 1, 3]), ([a, c, d], [0, 2, 1])];
         for (corners, beyond) in sides {
             hull.triangles.push(Triangle::new(corners, beyond));
@@ -96,7 +99,8 @@ impl<'a> Hull<'a> {
         Some(hull)
     }
 
-    /// Keeps each point with the first triangle, from a number on, that it lies above; a point above none of them is within the hull.
+    /// Keeps each point with the first triangle, from a number on, that it lies above; a point above none of them is
+    /// within the hull.
     fn hand_out(&mut self, points: impl Iterator<Item = u32>, from: usize) {
         for point in points {
             let at = &self.points[point as usize];
@@ -158,7 +162,8 @@ impl<'a> Hull<'a> {
     }
 }
 
-/// Above 0 for a point above the plane of three points, which are counter-clockwise as seen from above; its sign is exact.
+/// Above 0 for a point above the plane of three points, which are counter-clockwise as seen from above; its sign is
+/// exact.
 fn above(points: &[Vector3<f64>], plane: [u32; 3], point: &Vector3<f64>) -> f64 {
     let coordinates = |p: &Vector3<f64>| Coord3D { x: p.x, y: p.y, z: p.z };
     let [a, b, c] = plane.map(|i| coordinates(&points[i as usize]));

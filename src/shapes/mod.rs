@@ -1,8 +1,10 @@
-//! Builders of particles: from half-spaces, points, closed surfaces and names of solids, with rounded edges and faces where they are.
+//! Builders of particles: from half-spaces, points, closed surfaces and names of solids, with rounded edges and faces
+//! where they are.
 //!
-//! A particle stands about its centroid along its principal axes of inertia, as codes want the frame of a body; [`Shape::centroid`] and
-//! [`Shape::orientation`] say where that frame lies in that of the builder. [`Rounding`] says how far edges and corners are rounded, by a
-//! length or a share of the *size*: the diameter of the largest ball that fits into the sharp body. Each file uses only those above it:
+//! A particle stands about its centroid along its principal axes of inertia, as codes want the frame of a body;
+//! [`Shape::centroid`] and [`Shape::orientation`] say where that frame lies in that of the builder. [`Rounding`] says
+//! how far edges and corners are rounded, by a length or a share of the *size*: the diameter of the largest ball that
+//! fits into the sharp body. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -2,12 +2,13 @@
 
 use nalgebra::{Matrix2, Matrix3, Rotation3, UnitQuaternion, Vector3};
 
-/// Moments that differ by less than this share belong to one axis of symmetry, about which any axis is principal: some times the
-/// error to which they are known.
+/// Moments that differ by less than this share belong to one axis of symmetry, about which any axis is principal: some
+/// times the error to which they are known.
 const EQUAL: f64 = 2e-5;
 
-/// Rotation whose columns are principal axes, column i the one nearest to axis i of the frame. Where moments are equal, and any axes of a plane or
-/// of space are principal, those nearest to the frame's own are taken: a cube or a sphere keeps its frame.
+/// Rotation whose columns are principal axes, column i the one nearest to axis i of the frame. Where moments are equal,
+/// and any axes of a plane or of space are principal, those nearest to the frame's own are taken: a cube or a sphere
+/// keeps its frame.
 fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
     let eigen = inertia.symmetric_eigen();
     let mut order = [0, 1, 2];

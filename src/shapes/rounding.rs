@@ -6,10 +6,11 @@
 //! d_i = h_i − r √((1 − k h_i²/R²)/(1 − k))
 //! ```
 //!
-//! so that S = 1 at the foot of the perpendicular from the centre on the face, as long as no other plane counts there: the particle touches the face at
-//! this foot, and lies inside the body everywhere. Away from the foot a face is deeper by at most r (1/√(1−k) − 1), about r k/2; for k = 0 it is
-//! flat. Edges and corners are rounded. The shadow sphere is about the centre, which is to be the centroid: with k > 0 the shape depends on it a
-//! little, and it is found by repetition.
+//! so that S = 1 at the foot of the perpendicular from the centre on the face, as long as no other plane counts there:
+//! the particle touches the face at this foot, and lies inside the body everywhere. Away from the foot a face is deeper
+//! by at most r (1/√(1−k) − 1), about r k/2; for k = 0 it is flat. Edges and corners are rounded. The shadow sphere is
+//! about the centre, which is to be the centroid: with k > 0 the shape depends on it a little, and it is found by
+//! repetition.
 
 use super::error::{ShapeError, positive, within};
 use super::principal_frame::principal_orientation;
@@ -20,14 +21,16 @@ use crate::particle::plane::Plane;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes far less time, or, of bodies so
-/// flat or long that these digits do not say as much, when it comes no nearer and is the centroid as far as they tell. A last step with all digits
-/// follows; the shape does not change by it, but in the product of this share and k.
+/// The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes
+/// far less time, or, of bodies so flat or long that these digits do not say as much, when it comes no nearer and is
+/// the centroid as far as they tell. A last step with all digits follows; the shape does not change by it, but in the
+/// product of this share and k.
 const CENTRED: f64 = 1e-5;
 const ROUGHLY: f64 = 1e-4;
 const MOST_STEPS: usize = 50;
 
-/// How edges and corners are rounded. The size of a body is the diameter of the largest ball that fits into it while it is sharp.
+/// How edges and corners are rounded. The size of a body is the diameter of the largest ball that fits into it while it
+/// is sharp.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Rounding {
     r: Extent,
@@ -59,8 +62,9 @@ impl Default for Rounding {
 }
 
 impl Rounding {
-    /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1]: 0 leaves faces flat, 1 makes a sphere of radius R.
-    /// R, the radius of the shadow sphere, is the distance from the centre to the farthest corner.
+    /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1]: 0 leaves faces
+    /// flat, 1 makes a sphere of radius R. R, the radius of the shadow sphere, is the distance from the centre to the
+    /// farthest corner.
     pub fn new(share: f64, k: f64) -> Self {
         Self { r: Extent::OfSize(share), k, shadow_radius: None }
     }
@@ -110,7 +114,8 @@ pub struct Shape {
     pub mass: MassProperties,
     /// The origin of the particle's frame in that of the builder, length.
     pub centroid: Vector3<f64>,
-    /// The quaternion (w, x, y, z), w ≥ 0, from the particle's frame to the builder's: x_builder = centroid + orientation x.
+    /// The quaternion (w, x, y, z), w ≥ 0, from the particle's frame to the builder's: x_builder = centroid +
+    /// orientation x.
     pub orientation: [f64; 4],
 }
 
@@ -178,7 +183,8 @@ impl Shape {
     }
 }
 
-/// How far the centroid may be off along each axis: its error is a share of the radius of gyration √(∫x²dV/V); none where nothing is known.
+/// How far the centroid may be off along each axis: its error is a share of the radius of gyration √(∫x²dV/V); none
+/// where nothing is known.
 fn known(mass: &MassProperties) -> Vector3<f64> {
     let error = if mass.error.is_finite() { mass.error } else { 0.0 };
     let all = 0.5 * mass.inertia.trace();

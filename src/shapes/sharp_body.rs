@@ -11,7 +11,8 @@ use crate::particle::volume::{self, Enclosed};
 use crate::rock::{enclosed, unit_planes};
 use nalgebra::{Matrix3, Vector3};
 
-/// A centroid this close to the origin, as a share of the distance of the farthest corner, is there: sums over the faces are rounded by a few units.
+/// A centroid this close to the origin, as a share of the distance of the farthest corner, is there: sums over the
+/// faces are rounded by a few units.
 const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 
 /// Planes, corners and centroid are about `origin`, so that their digits do not depend on how far away the body is.
@@ -36,7 +37,8 @@ pub(super) struct HullOfPoints {
 }
 
 impl SharpBody {
-    /// {n·x ≤ d} of half-spaces, with normals of any length. Those that make no face of their own are left out, the others keep their order.
+    /// {n·x ≤ d} of half-spaces, with normals of any length. Those that make no face of their own are left out, the
+    /// others keep their order.
     ///
     /// # Errors
     /// Too many half-spaces; those that are none, that hold no point, that leave a side open or whose body is flat.
@@ -68,8 +70,8 @@ impl SharpBody {
         Ok(Self { origin: Vector3::zeros(), planes, corners, triangles, volume: solid.volume, centroid })
     }
 
-    /// The convex hull of points. Triangles that lie within 1e-6 of its extent of a plane are one face, or within `known`, the length to which the
-    /// points are known.
+    /// The convex hull of points. Triangles that lie within 1e-6 of its extent of a plane are one face, or within
+    /// `known`, the length to which the points are known.
     ///
     /// # Errors
     /// Points that are not finite, fewer than four, or all in a plane; too many faces.
@@ -144,7 +146,8 @@ impl HullOfPoints {
     }
 }
 
-/// A body that is symmetric about the origin stays so: where faces lie on faces, the contact point follows the last digit of their places.
+/// A body that is symmetric about the origin stays so: where faces lie on faces, the contact point follows the last
+/// digit of their places.
 fn at_the_origin(centroid: Vector3<f64>, corners: &[Vector3<f64>]) -> Vector3<f64> {
     let least = OF_SUMS * corners.iter().map(|corner| corner.amax()).fold(0.0, f64::max);
     centroid.map(|c| if c.abs() > least { c } else { 0.0 })

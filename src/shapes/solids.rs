@@ -8,16 +8,18 @@ use crate::particle::plane::{MAX_PLANES, Plane};
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
 
-/// Of half-spaces n·x ≤ d, with normals of any length: the faces of the particle are where these planes are (its own planes lie deeper, by about r).
-/// Planes that make no face are left out.
+/// Of half-spaces n·x ≤ d, with normals of any length: the faces of the particle are where these planes are (its own
+/// planes lie deeper, by about r). Planes that make no face are left out.
 ///
 /// # Errors
-/// Planes without a normal or whose numbers are not finite, that enclose no volume or hold no point; a rounding out of range.
+/// Planes without a normal or whose numbers are not finite, that enclose no volume or hold no point; a rounding out of
+/// range.
 pub fn half_spaces(planes: &[Plane], rounding: &Rounding) -> Result<Shape, ShapeError> {
     rounded(&SharpBody::of_planes(planes)?, rounding)
 }
 
-/// Of the convex hull of points, rounded inwards: no part lies outside the hull. Faces that are coplanar to 1e-6 of the extent are one.
+/// Of the convex hull of points, rounded inwards: no part lies outside the hull. Faces that are coplanar to 1e-6 of the
+/// extent are one.
 ///
 /// # Errors
 /// Points that are not finite, fewer than four, or all in a plane; a rounding out of range.
@@ -73,7 +75,8 @@ pub fn cuboid(edges: [f64; 3], rounding: &Rounding) -> Result<Shape, ShapeError>
     half_spaces(&planes, rounding)
 }
 
-/// A regular prism along z, its heights from −height/2 to height/2, the first side towards x; `radius` is that of the circle within its section.
+/// A regular prism along z, its heights from −height/2 to height/2, the first side towards x; `radius` is that of the
+/// circle within its section.
 ///
 /// # Errors
 /// Fewer than three sides, a length that is not positive and finite; a rounding out of range.

@@ -11,7 +11,8 @@ use std::collections::HashMap;
 const COVERED: f64 = 1e-3;
 
 impl SharpBody {
-    /// The hull of a closed convex surface of triangles, three numbers of points each, in any sense of rotation. `known`: as of [`Self::of_points`].
+    /// The hull of a closed convex surface of triangles, three numbers of points each, in any sense of rotation.
+    /// `known`: as of [`Self::of_points`].
     ///
     /// # Errors
     /// Those of [`Self::of_points`]; a surface that is open, not convex or crosses itself.
@@ -49,7 +50,8 @@ pub(crate) fn refuse_open(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result
     }
 }
 
-/// Refuses triangles that are not the surface of the hull of their points, which are about `middle`, or cover it more than once.
+/// Refuses triangles that are not the surface of the hull of their points, which are about `middle`, or cover it more
+/// than once.
 fn refuse_concave(
     points: &[Vector3<f64>],
     triangles: &[[u32; 3]],

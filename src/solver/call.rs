@@ -36,8 +36,8 @@ pub(crate) enum SolveError {
     ConeProgram(#[from] ConeProgramError),
 }
 
-/// A solution, with the quadratics that it is the optimum of or, of other solvers, those at its point. They stay where the caller has
-/// them: copying takes a twentieth of a call from memory.
+/// A solution, with the quadratics that it is the optimum of or, of other solvers, those at its point. They stay where
+/// the caller has them: copying takes a twentieth of a call from memory.
 pub(crate) struct Solved<'m> {
     pub solution: Solution,
     pub model: &'m LocalModel,
@@ -154,8 +154,9 @@ impl<'a> Call<'a> {
         Ok(solution)
     }
 
-    /// Whether a solution in doubles is unsettled, its gap wider than rounding, regularisation and tolerance explain, or than was asked
-    /// for, or its bounds leave open what matters: on which side of 1 s lies, or whether the constraint of closest is slack.
+    /// Whether a solution in doubles is unsettled, its gap wider than rounding, regularisation and tolerance explain,
+    /// or than was asked for, or its bounds leave open what matters: on which side of 1 s lies, or whether the
+    /// constraint of closest is slack.
     fn wants_more(&self, solution: &Solution, model: &LocalModel, goal: &Goal) -> bool {
         let [a, b] = self.bodies();
         let level = solution.upper.max(1.0);
@@ -250,7 +251,8 @@ mod tests {
     use crate::particle::particle::Particle;
     use crate::pose::Pose;
 
-    /// Two turned cubes solved in doubles and, where that is asked for, in 32 digits: both contain the same s, and only the second is flagged.
+    /// Two turned cubes solved in doubles and, where that is asked for, in 32 digits: both contain the same s, and only
+    /// the second is flagged.
     #[test]
     fn either_tier_bounds_the_answer_of_the_other() {
         let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);

@@ -1,7 +1,8 @@
 //! The two closest points P1 and P2 (paper eqs 3, 9, 34–43).
 //!
-//! Both lie on the dual path of midway, beyond its point P3: from there, or from the last call, one step along the current quadratics is
-//! mostly enough for both at once, in two lanes ([`crate::model::dual_search::both_closest`]). Else each is solved by itself.
+//! Both lie on the dual path of midway, beyond its point P3: from there, or from the last call, one step along the
+//! current quadratics is mostly enough for both at once, in two lanes ([`crate::model::dual_search::both_closest`]).
+//! Else each is solved by itself.
 
 use crate::bounds::point_bound::point_bound;
 use crate::bounds::scale::Scale;
@@ -57,8 +58,8 @@ impl Call<'_> {
         Ok(None)
     }
 
-    /// P1 and P2 from the current quadratics and the remembered factors, where one step is enough for both and either scale
-    /// tells that the particles overlap: midway is then needed neither for that nor as a start.
+    /// P1 and P2 from the current quadratics and the remembered factors, where one step is enough for both and either
+    /// scale tells that the particles overlap: midway is then needed neither for that nor as a start.
     #[inline(never)]
     pub fn closest_from_memory(&mut self, last: &Remembered, model: &LocalModel) -> Option<[CertifiedPoint; 2]> {
         let [of_p1, of_p2] = from_between([model.q_a.expansion, model.q_b.expansion], last.lambda);
@@ -91,8 +92,8 @@ impl Call<'_> {
         Some(points)
     }
 
-    /// One of the two points, or `None` where its constraint is slack: the optimum is then the minimum of the other particle, for
-    /// k > 0 its centre, for k = 0 anywhere in its core, and no contact point. Midway has no such case.
+    /// One of the two points, or `None` where its constraint is slack: the optimum is then the minimum of the other
+    /// particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact point. Midway has no such case.
     #[inline(never)]
     pub fn closest_point(
         &mut self,
@@ -128,7 +129,8 @@ impl Call<'_> {
         }
     }
 
-    /// Flags points that are free to move along flat faces, so that the way from one to the other has a part along them that the regularisation has chosen.
+    /// Flags points that are free to move along flat faces, so that the way from one to the other has a part along them
+    /// that the regularisation has chosen.
     pub fn flag_free(&mut self, points: &[CertifiedPoint; 2]) {
         let bodies = self.bodies();
         if !bodies.iter().any(|body| body.is_plain()) {
@@ -143,13 +145,15 @@ impl Call<'_> {
     }
 }
 
-/// Part of the way from one point to the other that has to lie along the faces for it to be longer by more than rounding.
+/// Part of the way from one point to the other that has to lie along the faces for it to be longer by more than
+/// rounding.
 const ALONG: f64 = 1e-6;
 
 /// Rounding of a gradient, relative.
 const OF_GRADIENT: f64 = 32.0 * f64::EPSILON;
 
-/// Whether the way between both points has a part along the level surfaces on which no gradient changes but by the regularisation.
+/// Whether the way between both points has a part along the level surfaces on which no gradient changes but by the
+/// regularisation.
 fn is_free(bodies: [&Body; 2], [p1, p2]: &[CertifiedPoint; 2]) -> bool {
     let (normal, way) = (p1.gradients[0] / p1.gradient_norms[0], p1.x - p2.x);
     let along = way - way.dot(&normal) * normal;
@@ -185,17 +189,17 @@ fn towards(midway: &Solution, problem: Problem) -> f64 {
 
 /// The λ of P1 and of P2 as seen from a point between them where S_A and S_B have these values, and the λ of midway.
 ///
-/// Where a single curvature decides along the dual path, √S_A and √S_B are linear on it, with slopes whose ratio is λ. With s_a, s_b for
-/// √S_A, √S_B here, √S_A at P2 is s_a + λ·(s_b − 1) and √S_B at P1 is s_b + (s_a − 1)/λ; their λ are λ times the first, and λ over the
-/// second.
+/// Where a single curvature decides along the dual path, √S_A and √S_B are linear on it, with slopes whose ratio is λ.
+/// With s_a, s_b for √S_A, √S_B here, √S_A at P2 is s_a + λ·(s_b − 1) and √S_B at P1 is s_b + (s_a − 1)/λ; their λ are
+/// λ times the first, and λ over the second.
 #[inline(always)]
 fn from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
     let (s_a, s_b) = (value_a.sqrt(), value_b.sqrt());
     [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
 }
 
-/// Whether the particles overlap, by the scale that tells it best: s_A at P2 and s_B at P1 lie on the same side of 1, but that of a large
-/// body lies nearer to it.
+/// Whether the particles overlap, by the scale that tells it best: s_A at P2 and s_B at P1 lie on the same side of 1,
+/// but that of a large body lies nearer to it.
 pub(crate) fn is_overlap([p1, p2]: &[CertifiedPoint; 2]) -> bool {
     let from_1 = |point: &CertifiedPoint| (point.scale.s - 1.0) / point.scale.gap;
     let (of_p1, of_p2) = (from_1(p1), from_1(p2));
@@ -208,7 +212,8 @@ pub(crate) fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[Certif
     Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
 }
 
-/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of midway.
+/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of
+/// midway.
 pub(crate) fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
     let [p1, p2] = points;
     let square = (p1.lambda * p1.scale.s) * (p2.lambda / p2.scale.s);
@@ -270,7 +275,8 @@ mod tests {
         }
     }
 
-    /// A small ball in the core of a cube of k = 0, beside its centre: all of the ball has S = 0 of the cube, and no point of it is the closest.
+    /// A small ball in the core of a cube of k = 0, beside its centre: all of the ball has S = 0 of the cube, and no
+    /// point of it is the closest.
     #[test]
     fn a_body_inside_the_core_of_another_has_no_closest_point() {
         let (cube, ball) = (Particle::cube(0.4, 0.1, 0.0, 0.0), Particle::sphere(0.05).unwrap());

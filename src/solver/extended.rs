@@ -1,12 +1,12 @@
 //! The extended tier: the same problem in numbers of 32 digits, by a method that converges from any start.
 //!
-//! For a fixed ratio of weights λ the sum φ = a·S_A + b·S_B is strictly convex, continuously differentiable and piecewise
-//! quadratic: Newton's method with an exact line search ends at its minimum. Along the minima one side of the problem grows with λ
-//! and the other falls, so that λ is bracketed; from each minimum the dual path of its quadratics leads to the next λ, and if
-//! the active set is unchanged there, that is the optimum.
+//! For a fixed ratio of weights λ the sum φ = a·S_A + b·S_B is strictly convex, continuously differentiable and
+//! piecewise quadratic: Newton's method with an exact line search ends at its minimum. Along the minima one side of the
+//! problem grows with λ and the other falls, so that λ is bracketed; from each minimum the dual path of its quadratics
+//! leads to the next λ, and if the active set is unchanged there, that is the optimum.
 //!
-//! The bounds need no active set: with the depths of the last point as multipliers, the dual value less half the square of the slope
-//! over the curvature of the spheres is a lower bound, and the merit of the point an upper one.
+//! The bounds need no active set: with the depths of the last point as multipliers, the dual value less half the square
+//! of the slope over the curvature of the spheres is a lower bound, and the merit of the point an upper one.
 
 use crate::bounds::point_bound::{self, Added};
 use crate::bounds::sensitivity::Sensitivity;
@@ -32,14 +32,15 @@ use nalgebra::{Matrix3, Vector3};
 const MOST_WEIGHTS: u32 = 60;
 const MOST_STEPS: u32 = 100;
 
-/// Radii of the smaller particle about the start within which planes are gathered first; a solution farther away is sought again about
-/// itself.
+/// Radii of the smaller particle about the start within which planes are gathered first; a solution farther away is
+/// sought again about itself.
 const FIRST_REACH: f64 = 0.05;
 
 /// Factor by which λ moves while only one end of its bracket is known, at most.
 const STRIDE: f64 = 1e3;
 
-/// Share of the bracket of ln λ that a value of λ from the dual path has to leave at each end, after two that did not halve it.
+/// Share of the bracket of ln λ that a value of λ from the dual path has to leave at each end, after two that did not
+/// halve it.
 const INSIDE: f64 = 0.1;
 
 /// Both bodies about the start.
@@ -85,8 +86,8 @@ impl SafeguardedBracket {
         Self { ends: Bracket { low: 0.0, high: f64::INFINITY }, slow: 0 }
     }
 
-    /// The next λ after one whose minimum has the side that grows with λ too large or too small, and whose dual path leads to
-    /// `wanted`; `None` where the bracket has no double inside.
+    /// The next λ after one whose minimum has the side that grows with λ too large or too small, and whose dual path
+    /// leads to `wanted`; `None` where the bracket has no double inside.
     fn next(&mut self, lambda: f64, too_large: bool, wanted: DoubleDouble) -> Option<DoubleDouble> {
         let width = (self.ends.high / self.ends.low).ln();
         self.ends.narrow(lambda, too_large);
@@ -163,7 +164,8 @@ impl Extended<'_> {
         for round in 0..MOST_WEIGHTS {
             let mut delta = found.delta;
             let Some((last, v)) = self.minimise(&mut delta, lambda) else {
-                // The minimum of the λ before bounds the optimum; of the first λ there is none, and the point that the steps reached does.
+                // The minimum of the λ before bounds the optimum; of the first λ there is none, and the point that the
+                // steps reached does.
                 if round == 0 {
                     found.delta = delta;
                 }
@@ -195,8 +197,8 @@ impl Extended<'_> {
         found
     }
 
-    /// Whether the point is in the held body and in the core of the free one, k = 0, where S is no more than what the regularisation may
-    /// add: the least S is then 0, and the point where the regularised S is least says no more.
+    /// Whether the point is in the held body and in the core of the free one, k = 0, where S is no more than what the
+    /// regularisation may add: the least S is then 0, and the point where the regularised S is least says no more.
     fn is_slack(&self, model: &WideModel) -> bool {
         let Some((held, free)) = self.problem.held() else { return false };
         let [value_of_held, value] = [held, free].map(|i| model.sides[i].value.rounded());
@@ -217,8 +219,8 @@ impl Extended<'_> {
         self.bodies.iter().all(|body| body.keeps_active_set(delta, undecided, v))
     }
 
-    /// Moves δ to where one step leads to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search: the quadratics there
-    /// and the step, or `None` where all steps do not suffice or a number leaves its range.
+    /// Moves δ to where one step leads to the minimum of a·S_A + b·S_B, by Newton's method with an exact line search:
+    /// the quadratics there and the step, or `None` where all steps do not suffice or a number leaves its range.
     fn minimise(&mut self, delta: &mut Wide, lambda: DoubleDouble) -> Option<(WideModel, Wide)> {
         let (a, b) = self.problem.weights(lambda);
         let mut undecided = Undecided::BySign;
@@ -343,8 +345,9 @@ impl Extended<'_> {
         }
     }
 
-    /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not. That body's S is
-    /// convex: a share of the way makes up for its rounding, on which the other one's S rises by at most its slope and curvature.
+    /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not. That
+    /// body's S is convex: a share of the way makes up for its rounding, on which the other one's S rises by at most
+    /// its slope and curvature.
     fn upper(&mut self, delta: &Wide, values: &[WideValue; 2]) -> DoubleDouble {
         let Some((held, free)) = self.problem.held() else { return values[0].value.larger(values[1].value) };
         let one = DoubleDouble::from(1.0);
@@ -366,7 +369,8 @@ impl Extended<'_> {
         values[free].value.larger(inside.value) + DoubleDouble::from(rise(&inside))
     }
 
-    /// Bound on the distance of the point to the optimum: by strong convexity, or by its sensitivity to the data where that is less.
+    /// Bound on the distance of the point to the optimum: by strong convexity, or by its sensitivity to the data where
+    /// that is less.
     fn point_bound(&self, found: &Found, solution: &Solution, bodies: [&Body; 2]) -> f64 {
         let by_convexity = point_bound::by_convexity(solution, bodies, self.problem);
         let by_sensitivity = found.optimum.as_ref().and_then(|(optimum, axes)| {
@@ -405,7 +409,8 @@ impl Extended<'_> {
     }
 }
 
-/// Bound, in units of ε, on the rounding of a point to doubles and on its way to the world (docs/theory.md, "Rounding").
+/// Bound, in units of ε, on the rounding of a point to doubles and on its way to the world (docs/theory.md,
+/// "Rounding").
 const PLACED: f64 = 16.0;
 
 /// Factor below 1 by which axes that are orthonormal to rounding may lower a curvature.
@@ -483,7 +488,8 @@ mod tests {
         }
     }
 
-    /// Balls of radii 1 and 3, whose centres are 2 apart: s = ½, λ = 3, and P3 is 1.5 from the centre of B. The doubles given are exact.
+    /// Balls of radii 1 and 3, whose centres are 2 apart: s = ½, λ = 3, and P3 is 1.5 from the centre of B. The doubles
+    /// given are exact.
     #[test]
     fn balls_are_solved_to_the_last_digit() {
         let (small, large) = (Particle::sphere(1.0).unwrap(), Particle::sphere(3.0).unwrap());

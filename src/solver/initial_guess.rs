@@ -11,8 +11,8 @@
 //! a linear program in x and F. It is solved by steepest descent: against the shortest vector y in the convex hull of
 //! the g_i in force, until another plane takes over, which joins the hull; those that y no longer needs leave it.
 //!
-//! As long as the same planes decide, the minimiser of max(S_A, S_B) without the spheres' shares then is known in closed
-//! form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
+//! As long as the same planes decide, the minimiser of max(S_A, S_B) without the spheres' shares then is known in
+//! closed form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
 //! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
 //!
 //! Whatever led to them, the same planes may prove the bodies apart ([`Hull::proof`]).
@@ -29,12 +29,13 @@ use nalgebra::Vector3;
 const MOST_PLANES: usize = 24;
 const MOST_TRIALS: usize = 24;
 
-/// Most planes of a body that are all followed from one step to the next: in larger bodies it is faster to leave clusters out.
+/// Most planes of a body that are all followed from one step to the next: in larger bodies it is faster to leave
+/// clusters out.
 const MOST_FOLLOWED: usize = 32;
 
-/// Planes that share a place of the surface, above which the quadratics there tell more than the planes one by one. With r/size = 0.05,
-/// bodies of 40 planes (1.4) take as many instructions either way, of 50 planes (1.75) 44 % fewer without the linear program, of 20
-/// planes (0.7) 50 % more (docs/design_notes.md).
+/// Planes that share a place of the surface, above which the quadratics there tell more than the planes one by one.
+/// With r/size = 0.05, bodies of 40 planes (1.4) take as many instructions either way, of 50 planes (1.75) 44 % fewer
+/// without the linear program, of 20 planes (0.7) 50 % more (docs/design_notes.md).
 const SMOOTH: f64 = 1.5;
 
 /// Relative to F: no other plane lies higher.
@@ -68,8 +69,8 @@ pub(crate) fn is_sharp([a, b]: [&Body; 2]) -> bool {
     !is_smooth(a) && !is_smooth(b)
 }
 
-/// Whether so many planes share each place of the surface that the sharp polyhedron is a poor start. On a ball, a plane is on
-/// within a cap as high as the rounding, r/√(1−k), which is the share r/√(1−k)/(2·radius) of the ball.
+/// Whether so many planes share each place of the surface that the sharp polyhedron is a poor start. On a ball, a plane
+/// is on within a cap as high as the rounding, r/√(1−k), which is the share r/√(1−k)/(2·radius) of the ball.
 fn is_smooth(body: &Body) -> bool {
     let (particle, bounds) = (body.particle, &body.particle.bounds);
     let together = particle.len() as f64 * bounds.face_reach / (2.0 * bounds.radius * bounds.longest_normal);
@@ -214,7 +215,8 @@ impl<'a> Envelope<'a> {
         (way, next)
     }
 
-    /// First among the neighbours of the last planes; then by Newton's method from there: what lies above F there takes over earlier.
+    /// First among the neighbours of the last planes; then by Newton's method from there: what lies above F there takes
+    /// over earlier.
     fn next_of_many(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         let (mut way, mut next) = (level / rate, None);
         for i in 0..2 {
@@ -242,7 +244,8 @@ impl<'a> Envelope<'a> {
     }
 }
 
-/// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` of one particle's planes alone: its own centre is meant, not a contact.
+/// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` of one particle's planes alone: its own centre is
+/// meant, not a contact.
 fn balanced(hull: &Hull, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
     let mut squares = [0.0; 2];
     (0..hull.count).for_each(|i| squares[hull.faces[i].of] += hull.shares[i] * hull.shares[i]);
@@ -266,7 +269,8 @@ mod tests {
     use crate::particle::particle::Particle;
     use crate::pose::Pose;
 
-    /// With k = 0 a face of B, at x = 0.5, and a face or an edge of A meet where s·(r_A + r_B) is what is between the sharp ones.
+    /// With k = 0 a face of B, at x = 0.5, and a face or an edge of A meet where s·(r_A + r_B) is what is between the
+    /// sharp ones.
     #[test]
     fn the_start_is_the_optimum_where_its_planes_are_those_that_are_on() {
         let (of_a, of_b, s) = (0.1, 0.02, 0.6);

@@ -1,6 +1,7 @@
 //! From a start to a solution with its bounds.
 //!
-//! The problems are those of section 2 of docs/theory.md, with S_A and S_B convex, once continuously differentiable and piecewise quadratic:
+//! The problems are those of section 2 of docs/theory.md, with S_A and S_B convex, once continuously differentiable and
+//! piecewise quadratic:
 //!
 //! ```text
 //! midway:       minimise max(S_A, S_B)
@@ -10,17 +11,20 @@
 //!
 //! [`call::Call::solve`] tries three ways in order and returns the first solution that will do:
 //!
-//! 1. One Newton step: the optimum of the quadratics at the start ([`crate::model`]), if the KKT check confirms its active set and its bounds
-//!    ([`crate::bounds`]) meet the tolerance or the rounding floor. This settles nearly all calls with memory.
+//! 1. One Newton step: the optimum of the quadratics at the start ([`crate::model`]), if the KKT check confirms its
+//!    active set and its bounds ([`crate::bounds`]) meet the tolerance or the rounding floor. This settles nearly all
+//!    calls with memory.
 //! 2. Newton's method: the same step repeated; one that raises the merit is shortened by an exact line search.
-//! 3. The extended tier, in 32 digits: for fixed λ Newton's method minimises a·S_A + b·S_B, a strictly convex function, and λ is
-//!    bracketed outside. It is entered where doubles do not settle, where the gap is wider than rounding, regularisation and tolerance explain, or
-//!    where it leaves open what was asked: whether s < 1, or whether a constraint is slack.
+//! 3. The extended tier, in 32 digits: for fixed λ Newton's method minimises a·S_A + b·S_B, a strictly convex function,
+//!    and λ is bracketed outside. It is entered where doubles do not settle, where the gap is wider than rounding,
+//!    regularisation and tolerance explain, or where it leaves open what was asked: whether s < 1, or whether a
+//!    constraint is slack.
 //!
-//! A call without memory starts from the sharp polyhedra behind both particles, a linear program in x and F = max √w(n·x − d). Both closest points
-//! are sought from midway, since all three lie on one dual path.
+//! A call without memory starts from the sharp polyhedra behind both particles, a linear program in x and F = max
+//! √w(n·x − d). Both closest points are sought from midway, since all three lie on one dual path.
 //!
-//! Section 3 of docs/theory.md derives the methods, section 9 measures what each part contributes. Each file uses only those above it:
+//! Section 3 of docs/theory.md derives the methods, section 9 measures what each part contributes. Each file uses only
+//! those above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,8 +1,8 @@
 //! Newton's method on the exact quadratic pieces, with a dual bound at every step.
 //!
-//! Each iteration makes both quadratics at x, solves the pair exactly ([`crate::model::dual_search`]) and steps to their
-//! optimum. If the active set is unchanged after the step, the point is optimal and the dual value is a lower bound. A step that
-//! does not reduce the merit (planes became active on the way) is shortened by an exact line search.
+//! Each iteration makes both quadratics at x, solves the pair exactly ([`crate::model::dual_search`]) and steps to
+//! their optimum. If the active set is unchanged after the step, the point is optimal and the dual value is a lower
+//! bound. A step that does not reduce the merit (planes became active on the way) is shortened by an exact line search.
 
 use crate::bounds::solution::{Ending, Solution};
 use crate::linalg::number::larger;
@@ -93,8 +93,8 @@ impl Quality {
     }
 }
 
-/// Solves for the goal, beginning with the quadratics at a point, and with the step from there if it is known; `model` becomes that of the
-/// solution.
+/// Solves for the goal, beginning with the quadratics at a point, and with the step from there if it is known; `model`
+/// becomes that of the solution.
 pub(crate) fn solve(
     bodies: [&Body; 2],
     goal: &Goal,
@@ -139,7 +139,8 @@ struct Best {
 }
 
 impl Search<'_> {
-    /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is worth it.
+    /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is
+    /// worth it.
     fn iterate(&mut self) -> ControlFlow<Option<Solution>> {
         self.iterations += 1;
         self.shorten_if_failed();
@@ -174,8 +175,8 @@ impl Search<'_> {
         }
     }
 
-    /// The solution that the optimum of the model is, if it is one and good enough. One that is not is kept if it is the best so far:
-    /// optimal, but over a long step; the same from nearby is sharper.
+    /// The solution that the optimum of the model is, if it is one and good enough. One that is not is kept if it is
+    /// the best so far: optimal, but over a long step; the same from nearby is sharper.
     fn answer(&mut self, step: &Step) -> Option<Solution> {
         let lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
         let separating = self.goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
@@ -284,7 +285,8 @@ mod tests {
         Goal { problem, tolerance: 1e-12, stop_when_separated: false }
     }
 
-    /// From where other planes are on: at the end the forces balance, both S are equal, and no point nearby has a lesser larger one.
+    /// From where other planes are on: at the end the forces balance, both S are equal, and no point nearby has a
+    /// lesser larger one.
     #[test]
     fn the_solution_is_the_optimum_by_its_definition() {
         let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);

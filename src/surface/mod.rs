@@ -1,4 +1,5 @@
-//! A closed mesh of triangles on the surface of a particle, with a proved distance to it. Each file uses only those above it:
+//! A closed mesh of triangles on the surface of a particle, with a proved distance to it. Each file uses only those
+//! above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -1,10 +1,10 @@
-//! The mesh of a particle: the convex hull of points on its surface, of which one more is added where the surface may rise
-//! most above a triangle, until that is below a tolerance.
+//! The mesh of a particle: the convex hull of points on its surface, of which one more is added where the surface may
+//! rise most above a triangle, until that is below a tolerance.
 //!
-//! The points lie on a convex surface, so that the mesh lies inside; how far the surface can rise above a triangle is bounded
-//! by the tangent planes at its corners. Where two or three of these planes meet, the next point is taken: on a polyhedron
-//! that is an edge or a corner, which a sharp particle so gets after a few points. A point splits one triangle, then flips of
-//! diagonals make the mesh convex again; neither can open it.
+//! The points lie on a convex surface, so that the mesh lies inside; how far the surface can rise above a triangle is
+//! bounded by the tangent planes at its corners. Where two or three of these planes meet, the next point is taken: on a
+//! polyhedron that is an edge or a corner, which a sharp particle so gets after a few points. A point splits one
+//! triangle, then flips of diagonals make the mesh convex again; neither can open it.
 
 use super::tangent_bound::{Rise, SurfacePoint, rise};
 use super::triangulation::Triangulation;
@@ -15,7 +15,8 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use thiserror::Error;
 
-/// A closed mesh of triangles in the local frame of a particle, inside the particle and with its corners on the surface.
+/// A closed mesh of triangles in the local frame of a particle, inside the particle and with its corners on the
+/// surface.
 #[derive(Clone, Debug)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct SurfaceMesh {
@@ -44,15 +45,17 @@ pub enum MeshError {
 /// Least tolerance: a sphere has about a million triangles then.
 const FINEST: f64 = 1e-5;
 
-/// Most vertices times the tolerance, and beside that: ten times as many as a sphere has, which needs more than other bodies of its radius.
-/// Only rounding asks for more, as where normals are of very different lengths; the error of the mesh then says so.
+/// Most vertices times the tolerance, and beside that: ten times as many as a sphere has, which needs more than other
+/// bodies of its radius. Only rounding asks for more, as where normals are of very different lengths; the error of the
+/// mesh then says so.
 const MOST_VERTICES: f64 = 50.0;
 const FEW_VERTICES: f64 = 1_000.0;
 
 /// Most flips of diagonals after one change, for each triangle: more are a circle that rounding leads in.
 const MOST_FLIPS: usize = 4;
 
-/// Part of the way from an edge to the opposite corner below which a point is put on the edge: no sliver is needed there.
+/// Part of the way from an edge to the opposite corner below which a point is put on the edge: no sliver is needed
+/// there.
 const NEAR_EDGE: f64 = 1e-3;
 
 /// Distance, over the radius, within which two points count as one, and below which a diagonal counts as flat.
@@ -177,8 +180,8 @@ impl<'a> Refinement<'a> {
         }
     }
 
-    /// Adds a point above a place of a triangle. If rounding leaves none, the triangle stays as it is and its bound enters
-    /// the error of the mesh.
+    /// Adds a point above a place of a triangle. If rounding leaves none, the triangle stays as it is and its bound
+    /// enters the error of the mesh.
     fn refine(&mut self, t: u32, place: [f64; 3]) {
         let corners = self.mesh.triangle(t).corners;
         let small = place.map(|part| part < NEAR_EDGE);
@@ -214,8 +217,8 @@ impl<'a> Refinement<'a> {
         (0..3).find(|&i| corners[i] == corner).expect("the new point is a corner of its triangles")
     }
 
-    /// Flips the edges opposite these corners where the surface bends inwards, and those that this puts in doubt; returns
-    /// the triangles that were changed.
+    /// Flips the edges opposite these corners where the surface bends inwards, and those that this puts in doubt;
+    /// returns the triangles that were changed.
     fn make_convex(&mut self, mut edges: Vec<(u32, usize)>) -> Vec<u32> {
         let mut changed = Vec::new();
         let most = MOST_FLIPS * self.mesh.len() as usize;
@@ -230,8 +233,8 @@ impl<'a> Refinement<'a> {
         changed
     }
 
-    /// Whether the triangle across the edge opposite corner `i` of t rises above the plane of t, and the other diagonal gives
-    /// two triangles that both face away from the centre.
+    /// Whether the triangle across the edge opposite corner `i` of t rises above the plane of t, and the other diagonal
+    /// gives two triangles that both face away from the centre.
     fn bends_inwards(&self, t: u32, i: usize) -> bool {
         let here = self.mesh.triangle(t);
         let there = self.mesh.triangle(here.beside[i]);

@@ -14,18 +14,21 @@ pub(super) struct SurfacePoint {
 pub(super) struct Rise {
     /// Length; infinite where the tangent planes bound nothing above the triangle.
     pub bound: f64,
-    /// Weights of the corners, ≥ 0, of sum 1: the point of the triangle below the highest point that the tangent planes allow.
+    /// Weights of the corners, ≥ 0, of sum 1: the point of the triangle below the highest point that the tangent planes
+    /// allow.
     pub place: [f64; 3],
 }
 
-/// By this part a constraint may be missed that is not among those of a basic solution: above the rounding of its products.
+/// By this part a constraint may be missed that is not among those of a basic solution: above the rounding of its
+/// products.
 const ROUNDING: f64 = 1e-12;
 
 /// Bound on the distance from any point of the surface to a triangle, within the cone of the triangle from the origin.
 ///
-/// A point of the cone is Σ w_j x_j with w ≥ 0, and the body lies below its tangent plane at each corner: Σ_j a_ij w_j ≤ 1 with
-/// a_ij = n_i·x_j / n_i·x_i. The distance from a convex set, the triangle, is a convex function, so that it is largest at a
-/// vertex of this polytope. The polytope is bounded if some y ≥ 0 has Σ_i y_i a_ij ≥ 1 for all j: then Σ w_j ≤ Σ y_i.
+/// A point of the cone is Σ w_j x_j with w ≥ 0, and the body lies below its tangent plane at each corner: Σ_j a_ij w_j
+/// ≤ 1 with a_ij = n_i·x_j / n_i·x_i. The distance from a convex set, the triangle, is a convex function, so that it is
+/// largest at a vertex of this polytope. The polytope is bounded if some y ≥ 0 has Σ_i y_i a_ij ≥ 1 for all j: then Σ
+/// w_j ≤ Σ y_i.
 pub(super) fn rise(corners: &[SurfacePoint; 3]) -> Rise {
     let a = Matrix3::from_fn(|i, j| {
         let SurfacePoint { position, normal } = &corners[i];

@@ -50,8 +50,8 @@ impl Triangulation {
         (0..3).find(|&j| beside[j] == t).expect("neighbours know each other")
     }
 
-    /// Joins the corners of triangle t to a new point inside it; returns the three triangles, each with the point as its last
-    /// corner. The first, second and third lie on the edges from corner 0 to 1, 1 to 2, 2 to 0.
+    /// Joins the corners of triangle t to a new point inside it; returns the three triangles, each with the point as
+    /// its last corner. The first, second and third lie on the edges from corner 0 to 1, 1 to 2, 2 to 0.
     pub fn split(&mut self, t: u32, point: u32) -> [u32; 3] {
         let Triangle { corners: [a, b, c], beside: [across_a, across_b, across_c] } = *self.triangle(t);
         let (t1, t2) = (self.len(), self.len() + 1);
@@ -63,8 +63,8 @@ impl Triangulation {
         [t, t1, t2]
     }
 
-    /// Replaces the edge opposite corner `i` of t by the other diagonal of the two triangles that it divides; returns both,
-    /// which have corner `i` of t as their first.
+    /// Replaces the edge opposite corner `i` of t by the other diagonal of the two triangles that it divides; returns
+    /// both, which have corner `i` of t as their first.
     pub fn flip(&mut self, t: u32, i: usize) -> [u32; 2] {
         let turned = |triangle: &Triangle, first: usize| {
             let order = [first, (first + 1) % 3, (first + 2) % 3];

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The least thickness of a semicircular arch that carries itself.
 
-Milankovitch (1907): t/R = 0.1075, R the radius of the middle line; it falls with hinges at the springings, at the crown, and
-between them at 54.5 degrees from the crown. (Heyman's 0.106 takes the weight along the middle line.) For so many stones,
-hinges can form at their joints alone, and less thickness is enough: by the static theorem (Heyman 1966) the arch stands if
-some line of thrust passes every joint within its thickness.
+Milankovitch (1907): t/R = 0.1075, R the radius of the middle line; it falls with hinges at the springings, at the
+crown, and between them at 54.5 degrees from the crown. (Heyman's 0.106 takes the weight along the middle line.) For so
+many stones,
+hinges can form at their joints alone, and less thickness is enough: by the static theorem (Heyman 1966) the arch stands
+if some line of thrust passes every joint within its thickness.
 """
 
 import numpy as np
@@ -56,8 +57,8 @@ def least_thickness(stones, inset=0.0):
 
 
 def line_of_thrust(thickness, stones, inset=0.0):
-    """Force (x, z) and moment about the origin at the left springing, with which some line of thrust passes every joint within
-    its thickness, `inset` t inside the edges; None if there is none. The density is 1, the width too.
+    """Force (x, z) and moment about the origin at the left springing, with which some line of thrust passes every joint
+    within its thickness, `inset` t inside the edges; None if there is none. The density is 1, the width too.
     """
     rows, sides = [], []
     for normal, turn in _resultants(thickness, stones):
@@ -78,13 +79,15 @@ def eccentricities(thickness, stones, reaction):
 
 
 def _resultants(thickness, stones):
-    """Of each joint its normal force and its moment about the middle of the joint, counterclockwise, on what is right of it: both
-    as (coefficients of the reaction at the left springing, constant)."""
+    """Of each joint its normal force and its moment about the middle of the joint, counterclockwise, on what is right
+    of it: both as (coefficients of the reaction at the left springing, constant).
+    """
     angles = joints(stones)
     weights, moments = _weights(thickness, angles)
     for angle, weight, moment in zip(angles, weights, moments):
         along, outward = np.array([np.cos(angle), -np.sin(angle)]), np.array([np.sin(angle), np.cos(angle)])
-        # What is left of the joint passes on F = (X, Z - weight), and M about the origin; about p it is M - (p_x F_z - p_z F_x).
+        # What is left of the joint passes on F = (X, Z - weight), and M about the origin; about p it is M - (p_x F_z -
+        # p_z F_x).
         middle = RADIUS * outward
         turn = np.array([middle[1], -middle[0], 1.0]), middle[0] * weight + moment
         normal = np.array([along[0], along[1], 0.0]), -along[1] * weight

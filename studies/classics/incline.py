@@ -18,8 +18,8 @@ MARGIN, NEAR = 0.2, 1.0  # degrees off the borders: all of the points; the neare
 FRICTION = (20.0, 30.0, 40.0)  # degrees
 
 RAMP = 60  # beats in which the plane is tilted
-# Seen after so small a turn (radians) or slip (m) that angles are still those at rest to half of MARGIN; tilts of a block that
-# rests are some 1e-6.
+# Seen after so small a turn (radians) or slip (m) that angles are still those at rest to half of MARGIN; tilts of a
+# block that rests are some 1e-6.
 TURNED, SLID, TILTED = 1e-3, 0.02, 1e-4
 PATIENCE = 1.2  # s for a block of 1 m
 
@@ -27,8 +27,8 @@ PATIENCE = 1.2  # s for a block of 1 m
 def region(slope, aspect, friction):
     """What a block does from rest; slope and friction in degrees, aspect = atan(b/h) in degrees.
 
-    It topples if the reaction would have to leave the base: below the slope if it rests, below friction if it slides. Turning
-    about its lower edge it needs the friction F/N of that motion, less than that of rest.
+    It topples if the reaction would have to leave the base: below the slope if it rests, below friction if it slides.
+    Turning about its lower edge it needs the friction F/N of that motion, less than that of rest.
     """
     if min(slope, friction) <= aspect:
         return SLIDES if slope > friction else STAYS
@@ -54,7 +54,9 @@ def region_of_hoek_and_bray(slope, aspect, friction):
 
 
 def points(count, seed=1):
-    """(slope, aspect, friction) at random, as many in each region, none within MARGIN of a border, half of them within NEAR."""
+    """(slope, aspect, friction) at random, as many in each region, none within MARGIN of a border, half of them within
+    NEAR.
+    """
     random = np.random.default_rng(seed)
     found = {(name, near): [] for name in (STAYS, SLIDES, TOPPLES, BOTH) for near in (False, True)}
     each = {near: (count // 4 + near) // 2 for near in (False, True)}
@@ -77,7 +79,9 @@ def _around(slope, aspect, friction, angle):
 
 
 def simulate(slope, aspect, friction):
-    """What the block does in YADE: (region, turn in radians, slip of the base in m). It slides if friction is at its limit."""
+    """What the block does in YADE: (region, turn in radians, slip of the base in m). It slides if friction is at its
+    limit.
+    """
     height, base = np.cos(np.radians(aspect)), np.sin(np.radians(aspect))
     scene = Scene(size=min(base, height), load=base * height * min(base, height))
     scene.block(box_corners(8.0, 2.0, 1.0), fixed=True, position=(0, 0, -0.5))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """A tetrahedral block in the roof of a tunnel, between three joints: does it fall or hold?
 
-It rests on joints A and B, and joint C lies on it. Their line of intersection plunges out of the roof, and joint C opens (Shi's
-mode of sliding on two faces; Goodman & Shi 1985). Without cohesion the limit is that of the wedge
-(Hoek & Bray 1974; studies/joint_planes.py): tan(friction) = W sin(plunge) / (N_A + N_B).
+It rests on joints A and B, and joint C lies on it. Their line of intersection plunges out of the roof, and joint C
+opens (Shi's mode of sliding on two faces; Goodman & Shi 1985). Without cohesion the limit is that of the wedge (Hoek &
+Bray 1974; studies/joint_planes.py): tan(friction) = W sin(plunge) / (N_A + N_B).
 """
 
 from dataclasses import dataclass
@@ -77,7 +77,8 @@ class HungBlock:
         self.scene = scene = Scene(size=size, load=shape.volume)
         self.block = scene.add(shape)
         for outward, offset in ((-case.plane_a.normal, 0.0), (-case.plane_b.normal, 0.0), case.joint_c()):
-            scene.add(shapes.cuboid((8.0, 8.0, 1.0), rounding=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
+            scene.add(shapes.cuboid((8.0, 8.0, 1.0), rounding=ROUNDING * size, k=0.0), fixed=True,
+                      **_behind(outward, offset))
         scene.start(friction=0.0)
         weight = self.block.state.mass * GRAVITY
         hold = weight * self.line[2] * self.line
@@ -121,7 +122,8 @@ def fall():
     scene = Scene(size=size, load=shape.volume, moving=True)
     block = scene.add(shape)
     for *outward, offset in spaces[:3]:
-        scene.add(shapes.cuboid((8.0, 8.0, 1.0), rounding=ROUNDING * size, k=0.0), fixed=True, **_behind(outward, offset))
+        scene.add(shapes.cuboid((8.0, 8.0, 1.0), rounding=ROUNDING * size, k=0.0), fixed=True,
+                  **_behind(outward, offset))
     scene.start(friction=STEEP)
     start = block.state.pos[2]
     scene.run(np.sqrt(2.0 * 0.1 / GRAVITY))

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Newmark's block: it rests on a plane that is shaken, and slides down a little in every cycle.
 
-Newmark (1965). The plane dips by a and moves along its dip with the acceleration A sin(w t). Downwards relative to the plane the
-block is accelerated by A sin(w t) - Y, with the yield acceleration Y = g (cos a tan(friction) - sin a). It starts when
-that exceeds 0, and stops when its velocity is 0 again.
+Newmark (1965). The plane dips by a and moves along its dip with the acceleration A sin(w t). Downwards relative to the
+plane the block is accelerated by A sin(w t) - Y, with the yield acceleration Y = g (cos a tan(friction) - sin a). It
+starts when that exceeds 0, and stops when its velocity is 0 again.
 """
 
 import numpy as np
@@ -28,7 +28,8 @@ def yield_acceleration(slope, friction):
 
 
 def displacement(ratio, yields, omega):
-    """In one cycle, m: A = ratio Y, Y = yields (m/s^2), w = omega (1/s). The block rests at the beginning of the next."""
+    """In one cycle, m: A = ratio Y, Y = yields (m/s^2), w = omega (1/s). The block rests at the beginning of the next.
+    """
     start = np.arcsin(1.0 / ratio)
 
     def velocity(phase):  # times w / A
@@ -53,8 +54,8 @@ def simulate(ratio, cycles=CYCLES):
     shaking = yade.HarmonicMotionEngine(ids=[plane.id], A=(0, 0, 0), f=(FREQUENCY, 0, 0), fi=(0, 0, 0), dead=True)
     scene.start(FRICTION, gravity=tilted_gravity(SLOPE), before=[shaking])
     scene.settle()
-    # The engine's velocity is -a w sin(w t + fi), a its amplitude. The plane is to have a w cos(w t'), t' from now, so that it is
-    # accelerated upwards by A sin(w t'). The block shares the velocity at first.
+    # The engine's velocity is -a w sin(w t + fi), a its amplitude. The plane is to have a w cos(w t'), t' from now, so
+    # that it is accelerated upwards by A sin(w t'). The block shares the velocity at first.
     shaking.A = (amplitude, 0, 0)
     shaking.fi = (-0.5 * np.pi - omega * O.time, 0, 0)
     shaking.dead = False

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Cases in YADE, one after the other: run.py starts it with CASES (names), OUTPUT (a folder) and SHORT in the environment.
+"""Cases in YADE, one after the other: run.py starts it with CASES (names), OUTPUT (a folder) and SHORT in the
+environment.
 
 Lines "part NAME 0.25" on standard output say how far it is; each case leaves NAME.json.
 """

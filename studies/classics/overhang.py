@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """How far can n blocks lean over the edge of a table? By half of 1 + 1/2 + ... + 1/n of a length.
 
-The block on top leans over the next by 1/2 at most, the next by 1/4, and so on: each time the blocks above are in balance on the edge
-(Coffin 1923; Johnson 1955, Gardner 1964 for the sum). The stack is built with all these steps times a factor, and the
-largest factor at which it stands is bracketed by halving.
+The block on top leans over the next by 1/2 at most, the next by 1/4, and so on: each time the blocks above are in
+balance on the edge (Coffin 1923; Johnson 1955, Gardner 1964 for the sum). The stack is built with all these steps times
+a factor, and the largest factor at which it stands is bracketed by halving.
 """
 
 from report import row, target, worst
@@ -38,7 +38,8 @@ def stands(count, factor):
         place = (reach - 0.5 * LENGTH, 0.0, (level + 0.5) * HEIGHT)
         blocks.append(scene.block(box_corners(LENGTH, WIDTH, HEIGHT), position=place))
     scene.start(friction=30.0)
-    return scene.comes_to_rest(PATIENCE, every=50.0, fails=lambda: max(abs(turn_about_y(one)) for one in blocks) >= FALLEN)
+    return scene.comes_to_rest(PATIENCE, every=50.0,
+                               fails=lambda: max(abs(turn_about_y(one)) for one in blocks) >= FALLEN)
 
 
 def largest(count, bracket=BRACKET, low=0.98, high=1.02):

@@ -48,20 +48,24 @@ def _labels(axis, x, y, **legend):
 
 
 def _incline(axis, data, rows):
-    """Slope less friction against aspect less friction: borders of different friction angles then nearly lie on each other."""
+    """Slope less friction against aspect less friction: borders of different friction angles then nearly lie on each
+    other.
+    """
     colours = dict(zip(("stays", "slides", "topples", "slides and topples"), COLOURS))
     marks = {20.0: "o", 30.0: "s", 40.0: "^"}
 
     def plot(chosen, mark, **style):
         some = [p for p in data["points"] if chosen(p)]
-        axis.plot([p["slope"] - p["friction"] for p in some], [p["aspect"] - p["friction"] for p in some], mark, **style)
+        axis.plot([p["slope"] - p["friction"] for p in some], [p["aspect"] - p["friction"] for p in some], mark,
+                  **style)
 
     for name, colour in colours.items():
         for friction, mark in marks.items():
             plot(lambda p: p["region"] == name and p["friction"] == friction, mark, ms=4, color=colour)
         axis.plot([], [], "o", ms=4, color=colour, label=name)
     plot(lambda p: p["found"] != p["region"], "kx", ms=9)
-    plot(lambda p: p["found"] != p["hoek_and_bray"], "o", ms=9, mfc="none", mec=FAINT, label="else in Hoek & Bray's chart")
+    plot(lambda p: p["found"] != p["hoek_and_bray"], "o", ms=9, mfc="none", mec=FAINT,
+         label="else in Hoek & Bray's chart")
     axis.axvline(0.0, color=CLOSED, lw=0.8)
     axis.plot([-40, 0, 60], [-40, 0, 0], color=CLOSED, lw=0.8)
     axis.set_xlim(-38, 42)
@@ -189,11 +193,21 @@ def _twist(axis, data, rows):
     for colour, path in zip(COLOURS, data["paths"]):
         axis.plot(path["time"], path["spin"], color=colour, lw=1.2, label=path["name"])
     time = np.array(data["paths"][0]["time"])
-    axis.plot(time, data["spin"] - data["deceleration"] * time, "--", color=CLOSED, lw=0.9, label="closed form, even pressure")
+    axis.plot(time, data["spin"] - data["deceleration"] * time, "--", color=CLOSED, lw=0.9,
+              label="closed form, even pressure")
     _labels(axis, "time, s", "angular velocity, 1/s", loc="lower left")
 
 
 DRAWN = {
-    "incline": _incline, "sliding": _sliding, "newmark": _newmark, "rocking": _rocking, "arch": _arch, "overhang": _overhang,
-    "toppling": _toppling, "key_block": _key_block, "rolling": _rolling, "tumbling": _tumbling, "twist": _twist,
+    "incline": _incline,
+    "sliding": _sliding,
+    "newmark": _newmark,
+    "rocking": _rocking,
+    "arch": _arch,
+    "overhang": _overhang,
+    "toppling": _toppling,
+    "key_block": _key_block,
+    "rolling": _rolling,
+    "tumbling": _tumbling,
+    "twist": _twist,
 }  # fmt: skip

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """A column rocks freely from edge to edge (Housner 1963).
 
-About its edge it is a pendulum turned over: theta'' = -p^2 sin(a - theta), p^2 = 3 g / (4 R), R half the diagonal, a = atan(b/h).
-From rest at theta0 it is upright again after a quarter period. If it neither bounces nor slides when it lands on the other
-edge, its angular momentum about that edge is kept, and the angular velocity after is 1 - 1.5 sin^2 a times that before.
+About its edge it is a pendulum turned over: theta'' = -p^2 sin(a - theta), p^2 = 3 g / (4 R), R half the diagonal, a =
+atan(b/h). From rest at theta0 it is upright again after a quarter period. If it neither bounces nor slides when it
+lands on the other edge, its angular momentum about that edge is kept, and the angular velocity after is 1 - 1.5 sin^2 a
+times that before.
 """
 
 import numpy as np
@@ -84,7 +85,9 @@ def first_upright(looks):
 
 
 def kept_at_first_impact(looks, tilt):
-    """Angular velocity after the first impact over that before, from how far the column turns afterwards: energy is kept then."""
+    """Angular velocity after the first impact over that before, from how far the column turns afterwards: energy is
+    kept then.
+    """
     first = int(np.argmax(looks[:, 1] <= 0.0))
     a, highest = slenderness(), float(-looks[first:, 1].min())
     return float(np.sqrt((np.cos(a - highest) - np.cos(a)) / (np.cos(a * (1.0 - tilt)) - np.cos(a))))

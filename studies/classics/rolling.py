@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """A cylinder of n planes rolls down an incline; a round one has the acceleration 2/3 g sin a.
 
-A prism of n sides goes from side to side, and each new side that it lands on costs it a part of its velocity, the smaller the more
+A prism of n sides goes from side to side, and each new side that it lands on costs it a part of its velocity, the
+smaller the more
 there are: its angular momentum about the new edge is kept, that about its axis is not.
 """
 

@@ -4,8 +4,9 @@
 
     make classics            (or: studies/classics/run.py)
 
-Environment: CASES (all, short for a little of each, or names, separated by commas), OUTPUT (out/classics), LAW (point, or joint: contact patches). Results: a table on the
-terminal and in table.md; classics.png; summary.json. docs/classics.md explains them. Ctrl-C keeps what is done.
+Environment: CASES (all, short for a little of each, or names, separated by commas), OUTPUT (out/classics), LAW (point,
+or joint: contact patches). Results: a table on the terminal and in table.md; classics.png; summary.json.
+docs/classics.md explains them. Ctrl-C keeps what is done.
 """
 
 import json
@@ -31,8 +32,17 @@ from table import markdown, print_rows, print_targets
 
 # In the order of the page and the table: about how many seconds each takes.
 SECONDS = {
-    "incline": 25, "sliding": 3, "newmark": 8, "rocking": 6, "arch": 200, "overhang": 100, "toppling": 80, "key_block": 20,
-    "rolling": 4, "tumbling": 15, "twist": 2,
+    "incline": 25,
+    "sliding": 3,
+    "newmark": 8,
+    "rocking": 6,
+    "arch": 200,
+    "overhang": 100,
+    "toppling": 80,
+    "key_block": 20,
+    "rolling": 4,
+    "tumbling": 15,
+    "twist": 2,
 }  # fmt: skip
 SHORT_SECONDS = 3
 AT_ONCE = 2
@@ -40,7 +50,8 @@ PART = re.compile(r"part (\w+) ([\d.]+)")
 
 
 class Run:
-    """Processes of YADE, two at a time: one a case, the longest first; or two for all, if a little of each is enough."""
+    """Processes of YADE, two at a time: one a case, the longest first; or two for all, if a little of each is enough.
+    """
 
     def __init__(self, names, short, scratch):
         self.names, self.short, self.scratch = names, short, scratch
@@ -158,7 +169,11 @@ def summed_up(results, failures, interrupted, seconds):
         "interrupted": interrupted,
         "targets": targets,
         "all_met": bool(targets) and not failures and all(one["met"] for one in targets),
-        "cases": {name: {key: result[key] for key in ("title", "rows", "wall_seconds")} for name, result in results.items()},
+        "cases": {
+            name: {key: result[key]
+                   for key in ("title", "rows", "wall_seconds")}
+            for name, result in results.items()
+        },
         "failed": failures,
         "wall_seconds": seconds,
         "processes": AT_ONCE,

@@ -1,19 +1,23 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The scene of every case: blocks with flat faces, springs and friction, and all numerical choices, which no case changes.
+"""The scene of every case: blocks with flat faces, springs and friction, and all numerical choices, which no case
+changes.
 
 Every length below is relative to the size of the scene, the diameter of the largest ball in its smallest block.
 
-- Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends r inside the edge.
+- Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends r
+inside the edge.
 - Springs are so stiff that the largest force at rest, which the case names (`load`), makes an overlap of OVERLAP.
-- Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves smoothly with
+- Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves
+smoothly with
   the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/classics.md).
 - The time step follows from the stiffest motion, springs or tilting.
-- With LAW=joint in the environment, contacts are patches with the law of joints: the load on a square of the size makes an overlap of
-  OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way (docs/classics.md). Their dashpots have RESTITUTION_AT_REST, so that
-  blocks that slide do not swing on their springs, of which YADE's damping would make a drag; in motion RESTITUTION.
-- What is looked for at rest has YADE's local damping, which vanishes at rest and delays all motion of a block alike. What is looked for
-  in motion (`moving`) has none, but dashpots beside the normal springs, so that what lands does not bounce. (Dashpots in shear would
-  add to the friction of YADE's law, which limits the spring alone.)
+- With LAW=joint in the environment, contacts are patches with the law of joints: the load on a square of the size makes
+  an overlap of OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way
+  (docs/classics.md). Their dashpots have RESTITUTION_AT_REST, so that blocks that slide do not swing on their springs,
+  of which YADE's damping would make a drag; in motion RESTITUTION.
+- What is looked for at rest has YADE's local damping, which vanishes at rest and delays all motion of a block alike.
+  What is looked for in motion (`moving`) has none, but dashpots beside the normal springs, so that what lands does not
+  bounce. (Dashpots in shear would add to the friction of YADE's law, which limits the spring alone.)
 """
 
 import numpy as np
@@ -57,7 +61,8 @@ class Scene:
         self.moving = moving
         self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
         self.load = load * DENSITY * GRAVITY
-        self.overlap = size * max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP, min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.overlap = size * max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP,
+                                  min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
         self.stiffness = self.load / self.overlap
         # In which motions are told: joints give way by more than their overlap.
         self.motion_unit = max(self.overlap, size * OVERLAP)
@@ -110,7 +115,8 @@ class Scene:
             yade.NewtonIntegrator(damping=0.0 if self.moving else DAMPING, gravity=gravity, exactAsphericalRot=True),
         ]
         if JOINTS:
-            use_joints(normalStiffness=self.stiffness / self.size**2, shearStiffness=SHEAR * self.stiffness / self.size**2,
+            use_joints(normalStiffness=self.stiffness / self.size**2,
+                       shearStiffness=SHEAR * self.stiffness / self.size**2,
                        restitution=RESTITUTION if self.moving else RESTITUTION_AT_REST)
         O.dt = self._time_step_of_joints() if JOINTS else self._time_step(max(bulge, self.sphericity))
         self.set_friction(friction)
@@ -137,12 +143,15 @@ class Scene:
         return least
 
     def _time_step_of_joints(self):
-        """s, from the springs of a patch as large as any section of the ball about a block: at least twice its own, so that dashpots have room."""
+        """s, from the springs of a patch as large as any section of the ball about a block: at least twice its own, so
+        that dashpots have room.
+        """
         least = np.inf
         for one in self.free():
             radius = one.shape.boundingRadius
             area = np.pi * radius**2
-            springs = self.stiffness * area / self.size**2 * max(1.0 / one.state.mass, 0.5 * radius**2 / min(one.state.inertia))
+            springs = self.stiffness * area / self.size**2 * max(1.0 / one.state.mass,
+                                                                 0.5 * radius**2 / min(one.state.inertia))
             least = min(least, SPRING_STEP / np.sqrt(springs))
         return least
 
@@ -182,14 +191,17 @@ class Scene:
         advance(O.iter + max(1, round(seconds / O.dt)))
 
     def at_rest(self):
-        """Whether no block is faster than QUIET sqrt(g overlap), and none is turned faster than that at its farthest corner."""
+        """Whether no block is faster than QUIET sqrt(g overlap), and none is turned faster than that at its farthest
+        corner.
+        """
         limit = QUIET * np.sqrt(GRAVITY * self.overlap)
-        return all(
-            one.state.vel.norm() < limit and one.state.angVel.norm() * one.shape.boundingRadius < limit for one in self.free()
-        )
+        return all(one.state.vel.norm() < limit and one.state.angVel.norm() * one.shape.boundingRadius < limit
+                   for one in self.free())
 
     def comes_to_rest(self, within, every, fails=lambda: False):
-        """Whether the blocks rest within so many seconds from now, before `fails` is true; looked at every so many beats."""
+        """Whether the blocks rest within so many seconds from now, before `fails` is true; looked at every so many
+        beats.
+        """
         until, rests = O.time + within, False
         while O.time < until and not rests and not fails():
             self.run(every * self.beat)

@@ -6,14 +6,17 @@ HEADS = ("case", "closed form", "found", "error")
 
 def markdown(results, summary):
     """table.md."""
-    lines = ["# Classics of blocks", "", f"{summary['date']}, {summary['machine']}, {summary['wall_seconds']:.0f} s", ""]
+    lines = [
+        "# Classics of blocks", "", f"{summary['date']}, {summary['machine']}, {summary['wall_seconds']:.0f} s", ""
+    ]
     lines += ["| " + " | ".join(HEADS) + " |", "|" + "---|" * len(HEADS)]
     for result in results.values():
         lines.append(f"| **{result['title']}** | | | |")
         lines += ["| " + " | ".join(_cells(one)) + " |" for one in result["rows"]]
     lines += ["", "| target | | limit | measured | |", "|---|---|---|---|---|"]
     for one in summary["targets"]:
-        lines.append(f"| {one['name']} | {one['sense']} | {one['target']:g} | {_number(one['measured'])} | {_verdict(one)} |")
+        lines.append(
+            f"| {one['name']} | {one['sense']} | {one['target']:g} | {_number(one['measured'])} | {_verdict(one)} |")
     return "\n".join(lines) + "\n"
 
 
@@ -26,7 +29,8 @@ def print_rows(results):
     widths = [max(len(cells[i]) for cells in rows) for i in range(4)]
     print()
     for cells in rows:
-        print("  " + cells[0].ljust(widths[0]) + "".join("  " + cell.rjust(width) for cell, width in zip(cells[1:], widths[1:])))
+        print("  " + cells[0].ljust(widths[0]) + "".join("  " + cell.rjust(width)
+                                                         for cell, width in zip(cells[1:], widths[1:])))
 
 
 def print_targets(summary, out):
@@ -34,7 +38,9 @@ def print_targets(summary, out):
     print()
     width = max((len(one["name"]) for one in summary["targets"]), default=0)
     for one in summary["targets"]:
-        print(f"  {one['name']:<{width}}  {_number(one['measured']):>9} {one['sense']} {one['target']:<6g} {_verdict(one)}")
+        print(
+            f"  {one['name']:<{width}}  {_number(one['measured']):>9} {one['sense']} {one['target']:<6g} {_verdict(one)}"
+        )
     print(f"\n  {summary['wall_seconds']:.0f} s in all; {summary['machine']}\n  results: {out}", flush=True)
 
 

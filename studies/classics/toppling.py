@@ -2,8 +2,9 @@
 """A slope of 16 columns that topple on a stepped base, held by their toe: at which friction angle does it fail?
 
 The example of Goodman & Bray (1976; Hoek & Bray 1974 and later editions; Wyllie & Mah 2004): columns of 10 m dip at 60
-degrees into a slope of 56.6 degrees, 92.5 m high. Each column pushes the next with the force that keeps it from toppling, or
-from sliding, about its base; at the limit no force is left below the lowest. Their solution: 38.15 degrees.
+degrees into a slope of 56.6 degrees, 92.5 m high. Each column pushes the next with the force that keeps it from
+toppling, or from sliding, about its base; at the limit no force is left below the lowest. Their solution: 38.15
+degrees.
 """
 
 import numpy as np
@@ -34,7 +35,9 @@ def heights():
 
 
 def levers(n, y):
-    """(M_n, L_n): heights above the base of column n at which the column above pushes it and at which it pushes the one below, m."""
+    """(M_n, L_n): heights above the base of column n at which the column above pushes it and at which it pushes the one
+    below, m.
+    """
     if n < CREST:
         return y, y - BELOW
     return y - ABOVE, (y - BELOW if n == CREST else y)
@@ -89,9 +92,12 @@ class Slope:
         return max(np.linalg.norm(one.state.pos - place) for one, place in zip(self.columns, self.places))
 
     def holds(self, friction):
-        """Whether the columns come to rest again after friction was lowered, degrees, before one has moved by MOVED, and within PATIENCE."""
+        """Whether the columns come to rest again after friction was lowered, degrees, before one has moved by MOVED,
+        and within PATIENCE.
+        """
         self.scene.set_friction(friction)
-        return self.scene.comes_to_rest(PATIENCE, every=50.0, fails=lambda: self.moved() > MOVED * self.scene.motion_unit)
+        return self.scene.comes_to_rest(PATIENCE, every=50.0,
+                                        fails=lambda: self.moved() > MOVED * self.scene.motion_unit)
 
     def pushes(self):
         """Normal force between columns n and n - 1, n = 16..2, per unit weight of rock, m^2."""

@@ -36,8 +36,9 @@ def energy(state):
 
 
 class HalfStep:
-    """Fincham's rule (1992; Allen & Tildesley 1987, 3.3), in which the orientation of the middle of a step turns L into the
-    body's axes there. YADE's takes that of its beginning, by which it is of first order."""
+    """Fincham's rule (1992; Allen & Tildesley 1987, 3.3), in which the orientation of the middle of a step turns L into
+    the body's axes there. YADE's takes that of its beginning, by which it is of first order.
+    """
 
     def __init__(self, state):
         self.state, self.inertia = state, tuple(state.inertia)
@@ -122,7 +123,8 @@ def run(note, short):
         looks, change = simulate(steps, turns, rule)
         drifts[rule] = drift = float(np.abs(looks[:, 2] - 1.0).max())
         momentum = max(momentum, change) if rule != DEL_VALLE else momentum
-        rows.append(row(f"energy over that at the start, {turns} turns, {steps} steps a turn, {NAMES[rule]}", 1.0, 1.0 + drift))
+        rows.append(
+            row(f"energy over that at the start, {turns} turns, {steps} steps a turn, {NAMES[rule]}", 1.0, 1.0 + drift))
         data.append({"steps": steps, "rule": rule, "turns": (looks[:, 0] * SPIN / (2 * np.pi)).tolist(),
                      "spin": looks[:, 1].tolist(), "energy": looks[:, 2].tolist()})  # fmt: skip
         note(number / len(rules(short)))

@@ -2,9 +2,10 @@
 """Where one contact point is not enough: a block spins on its base, and friction should stop it.
 
 With an even pressure on a square base of side a the moment of friction about the middle is mu W a c,
-c = (sqrt 2 + ln(1 + sqrt 2))/6 = 0.3826, so that a block of the moment of inertia m a^2/6 loses 6 c mu g/a of its angular velocity
-in a second. One point in the middle has no lever. Measured beside it: a patch, points of the face with areas, each with its
-share of the springs and its own limit of friction. With LAW=joint: the contact patch, and the law of joints.
+c = (sqrt 2 + ln(1 + sqrt 2))/6 = 0.3826, so that a block of the moment of inertia m a^2/6 loses 6 c mu g/a of its
+angular velocity in a second. One point in the middle has no lever. Measured beside it: a patch, points of the face with
+areas, each with its share of the springs and its own limit of friction. With LAW=joint: the contact patch, and the law
+of joints.
 """
 
 import numpy as np
@@ -26,7 +27,9 @@ def deceleration(lever=LEVER):
 
 
 class Patch:
-    """Springs at points of the base, on the plane z = 0: what a law would do that is given a patch. In Python, for this scene only."""
+    """Springs at points of the base, on the plane z = 0: what a law would do that is given a patch. In Python, for this
+    scene only.
+    """
 
     def __init__(self, points, stiffness):
         self.points = np.column_stack([points * SIDE, np.full(len(points), -0.5 * SIDE)])  # block's axes
@@ -60,7 +63,9 @@ def corners():
 
 
 def simulate(points=None):
-    """Times (s) and angular velocities (1/s), with the contact's own point (or patch, of joints) or with points of a face."""
+    """Times (s) and angular velocities (1/s), with the contact's own point (or patch, of joints) or with points of a
+    face.
+    """
     scene = Scene(size=SIDE, load=SIDE**3, moving=True)
     if points is None:
         scene.block(box_corners(4.0, 4.0, 1.0), fixed=True, position=(0.0, 0.0, -0.5))

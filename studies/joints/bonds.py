@@ -21,7 +21,10 @@ def _chain(number, bonds=True, gravity=(0, 0, 0), **material):
     fresh(gravity=gravity, **{**dict(normalStiffness=NORMAL, shearStiffness=SHEAR, frictionAngle=0.5, cohesion=STRONG,
                                      tensileStrength=STRONG), **material})
     O.engines[3].physDispatcher.functors[0].bonds = bonds
-    blocks = [add(block_shape((LENGTH, WIDTH, HEIGHT), r=RADIUS), ((LENGTH - OVERLAP) * i, 0, 0), fixed=i == 0) for i in range(number + 1)]
+    blocks = [
+        add(block_shape((LENGTH, WIDTH, HEIGHT), r=RADIUS), ((LENGTH - OVERLAP) * i, 0, 0), fixed=i == 0)
+        for i in range(number + 1)
+    ]
     O.dt = 1e-6
     return blocks[1:]
 
@@ -56,22 +59,29 @@ def _turned(axis, angle):
 
 
 def bond_strength():
-    """Load at the first crack of a bond: tension s A, shear c A, bending s b h^2/6 (both ways), twist c J/r_max; relative error."""
+    """Load at the first crack of a bond: tension s A, shear c A, bending s b h^2/6 (both ways), twist c J/r_max;
+    relative error.
+    """
     step, corner = STRENGTH / 2000, math.hypot(B, H) / 2
     found = {
-        "tension": _bears(_displaced(step / NORMAL, 0, 0), lambda f, t: -f[0], tensileStrength=STRENGTH) / (STRENGTH * AREA),
+        "tension": _bears(_displaced(step / NORMAL, 0, 0), lambda f, t: -f[0], tensileStrength=STRENGTH) /
+                   (STRENGTH * AREA),
         "shear": _bears(_displaced(0, step / SHEAR, 0), lambda f, t: -f[1], cohesion=STRENGTH) / (STRENGTH * AREA),
-        "bending": _bears(_turned((0, 1, 0), 2 * step / NORMAL / H), lambda f, t: -t[1], tensileStrength=STRENGTH)
-        / (STRENGTH * B * H**2 / 6),
-        "bending across": _bears(_turned((0, 0, 1), 2 * step / NORMAL / B), lambda f, t: -t[2], tensileStrength=STRENGTH)
-        / (STRENGTH * H * B**2 / 6),
-        "twist": _bears(_turned((1, 0, 0), step / SHEAR / corner), lambda f, t: -t[0], cohesion=STRENGTH) / (STRENGTH * POLAR / corner),
+        "bending": _bears(_turned((0, 1, 0), 2 * step / NORMAL / H), lambda f, t: -t[1], tensileStrength=STRENGTH) /
+                   (STRENGTH * B * H**2 / 6),
+        "bending across": _bears(_turned(
+            (0, 0, 1), 2 * step / NORMAL / B), lambda f, t: -t[2], tensileStrength=STRENGTH) /
+                          (STRENGTH * H * B**2 / 6),
+        "twist": _bears(_turned((1, 0, 0), step / SHEAR / corner), lambda f, t: -t[0], cohesion=STRENGTH) /
+                 (STRENGTH * POLAR / corner),
     }
     return {"value": max(abs(share - 1) for share in found.values()), "target": 5e-3, "shares": found}
 
 
 def fracture_energy():
-    """Energy of a bond that is pulled apart, against strength (elastic opening + softening) A/2: brittle, and with softening."""
+    """Energy of a bond that is pulled apart, against strength (elastic opening + softening) A/2: brittle, and with
+    softening.
+    """
     shares = []
     for softening in (0.0, 3 * STRENGTH / NORMAL):
         block, = _chain(1, tensileStrength=STRENGTH, softening=softening)
@@ -86,8 +96,9 @@ def fracture_energy():
 
 def _pushed(bonds, cohesion, peak, residual, pressure=1e5):
     """Peak and residual shear force of a cuboid that is pressed on a wall and pushed along it."""
-    fresh(gravity=(0, 0, 0), normalStiffness=NORMAL, shearStiffness=SHEAR, cohesion=cohesion, residualCohesion=0.2 * cohesion,
-          tensileStrength=STRONG, frictionAngle=math.atan(peak), residualFrictionAngle=math.atan(residual))
+    fresh(gravity=(0, 0, 0), normalStiffness=NORMAL, shearStiffness=SHEAR, cohesion=cohesion,
+          residualCohesion=0.2 * cohesion, tensileStrength=STRONG, frictionAngle=math.atan(peak),
+          residualFrictionAngle=math.atan(residual))
     O.engines[3].physDispatcher.functors[0].bonds = bonds
     wall((0, 0, 0), 2, 1)
     block = add(block_shape((LENGTH, WIDTH, HEIGHT), r=1e-3), (0, 0, 0.5 * HEIGHT - pressure / NORMAL))
@@ -112,7 +123,9 @@ def mohr_coulomb():
 
 
 def deflection(number=6, load=10.0):
-    """Static deflection at the end of a cantilever of bonded blocks, against the sum over its joints of M s/(k_n I) + Q/(k_s A)."""
+    """Static deflection at the end of a cantilever of bonded blocks, against the sum over its joints of M s/(k_n I) +
+    Q/(k_s A).
+    """
     blocks = _chain(number)
     end = blocks[-1]
     O.dt = potential_particles.critical_time_step()
@@ -126,7 +139,9 @@ def deflection(number=6, load=10.0):
 
 
 def _lowest_mode(blocks):
-    """Circular frequency and shape (deflection, rotation about y of each block) of rigid blocks with the springs of the joints."""
+    """Circular frequency and shape (deflection, rotation about y of each block) of rigid blocks with the springs of the
+    joints.
+    """
     number = len(blocks)
     stiffness, mass = np.zeros((2 * number, 2 * number)), np.zeros(2 * number)
     for i, block in enumerate(blocks):
@@ -144,7 +159,9 @@ def _lowest_mode(blocks):
 
 
 def frequency(number=6, periods=3):
-    """Lowest natural frequency of the same cantilever, against the eigenvalue of rigid blocks with the springs of the joints."""
+    """Lowest natural frequency of the same cantilever, against the eigenvalue of rigid blocks with the springs of the
+    joints.
+    """
     blocks = _chain(number)
     O.dt = 0.5 * potential_particles.critical_time_step()
     O.step()
@@ -163,7 +180,10 @@ def frequency(number=6, periods=3):
         if O.time - start > 4 * math.pi * periods / circular:
             raise RuntimeError("it does not swing")
     found = math.pi * 2 * periods / (crossings[-1] - crossings[0])
-    return {"value": abs(found / circular - 1), "target": 5e-3, "hertz": circular / (2 * math.pi), "found": found / (2 * math.pi)}
+    return {
+        "value": abs(found / circular - 1), "target": 5e-3, "hertz": circular / (2 * math.pi), "found": found /
+                                                                                                        (2 * math.pi)
+    }
 
 
 ROWS = {row.__name__: row for row in (bond_strength, fracture_energy, mohr_coulomb, deflection, frequency)}

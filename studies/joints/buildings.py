@@ -11,7 +11,8 @@ from yade import Vector3
 
 FRICTION, DENSITY, GRAVITY = 0.7, 2000.0, 9.81
 ROUNDING = 2e-3  # of the edges, m
-# Stiffness per area, N/m^3: so stiff that a block on its edge does not tilt by as much as the limit would see; a row may have a stiffer one.
+# Stiffness per area, N/m^3: so stiff that a block on its edge does not tilt by as much as the limit would see; a row
+# may have a stiffer one.
 K = 1e11
 STEP = 5e-6  # s, of joints of K, a fifth of the limit of the joints that there are
 RESTS, FALLS = 1e-6, 0.05  # m/s; m
@@ -21,7 +22,8 @@ class Building:
     """Stones as convex hulls of corners, the fixed ones last, and the joints between them."""
 
     def __init__(self, stones, fixed, joints, directions):
-        self.stones, self.fixed, self.joints = [np.asarray(one, float) for one in stones], [np.asarray(one, float) for one in fixed], joints
+        self.stones, self.fixed, self.joints = [np.asarray(one, float)
+                                                for one in stones], [np.asarray(one, float) for one in fixed], joints
         self.directions = directions
         made = [self.shape(one) for one in self.stones]
         self.centroids = np.array([shape.centroid for shape in made])
@@ -34,11 +36,15 @@ class Building:
 
     def limit(self):
         """The horizontal acceleration in `directions`, over gravity, at which it falls."""
-        return largest_load(self.centroids, self.weights, self.joints, FRICTION, np.outer(self.weights, self.directions))
+        return largest_load(self.centroids, self.weights, self.joints, FRICTION,
+                            np.outer(self.weights, self.directions))
 
     def pushed(self, acceleration, seconds=2.0, stiffness=K):
-        """How far stones are off after the acceleration has come up slowly and stayed until they rest or have fallen, or for a time, m, and the fastest one, m/s."""
-        fresh(damping=0.5, normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=math.atan(FRICTION), restitution=0.3)
+        """How far stones are off after the acceleration has come up slowly and stayed until they rest or have fallen,
+        or for a time, m, and the fastest one, m/s.
+        """
+        fresh(damping=0.5, normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=math.atan(FRICTION),
+              restitution=0.3)
         stones = [O.bodies[O.bodies.append(potential_particles.body(self.shape(one)))] for one in self.stones]
         for one in self.fixed:
             O.bodies.append(potential_particles.body(self.shape(one), fixed=True))
@@ -55,7 +61,8 @@ class Building:
             return max((stone.state.pos - place).norm() for stone, place in zip(stones, begin))
 
         for part in range(1, 101):
-            O.engines[-1].gravity = GRAVITY * Vector3(*(acceleration * part / 100 * x for x in self.directions)) - Vector3(0, 0, GRAVITY)
+            O.engines[-1].gravity = GRAVITY * Vector3(*(acceleration * part / 100 * x
+                                                        for x in self.directions)) - Vector3(0, 0, GRAVITY)
             run(0.015)
         end = O.time + seconds
         while O.time < end and fastest() > RESTS and moved() < FALLS:
@@ -65,7 +72,8 @@ class Building:
 
 def brick(x, z, length=0.4, width=0.2, height=0.2, y=0.0):
     """The corners of a brick whose lowest corner is at x, z, about y = 0."""
-    return np.array([(x + i * length, y + (j - 0.5) * width, z + k * height) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    return np.array([(x + i * length, y + (j - 0.5) * width, z + k * height) for i in (0, 1) for j in (0, 1)
+                     for k in (0, 1)])
 
 
 def bed_joints(stones, fixed):
@@ -79,7 +87,8 @@ def bed_joints(stones, fixed):
             high = np.minimum(below.max(0), above.max(0))[:2] - ROUNDING
             if (high > low).all():
                 z = above[:, 2].min()
-                joints.append(Joint(lower, upper, [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1])], (0, 0, 1)))
+                joints.append(
+                    Joint(lower, upper, [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1])], (0, 0, 1)))
     return joints
 
 
@@ -95,14 +104,18 @@ def wall():
 
 def portal():
     """A beam on two pillars of four blocks."""
-    stones = [brick(x, 0.2 * course, 0.15) for x in (0, 0.65) for course in range(4)] + [brick(-0.05, 0.8, 0.9, height=0.12)]
+    stones = [brick(x, 0.2 * course, 0.15) for x in (0, 0.65)
+              for course in range(4)] + [brick(-0.05, 0.8, 0.9, height=0.12)]
     fixed = [brick(-0.2, -0.2, 1.2, width=0.4)]
     return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
 
 
 def tower():
     """Bricks laid crosswise."""
-    stones = [brick(0, 0.1 * course, 0.3, 0.2, 0.1) if course % 2 == 0 else brick(0.05, 0.1 * course, 0.2, 0.3, 0.1) for course in range(8)]
+    stones = [
+        brick(0, 0.1 * course, 0.3, 0.2, 0.1) if course % 2 == 0 else brick(0.05, 0.1 * course, 0.2, 0.3, 0.1)
+        for course in range(8)
+    ]
     fixed = [brick(-0.2, -0.2, 0.7, width=0.7)]
     return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
 
@@ -119,7 +132,10 @@ def arch(stones=12, thickness=1.3 * 0.1075, depth=0.14, radius=1.0):
     fixed = [brick(side - thickness, -0.2, 2 * thickness, width=2 * depth) for side in (-radius, radius)]
     joints = []
     for i, angle in enumerate(angles):
-        corners = [point(d, angle, s) for d in (inner + ROUNDING, outer - ROUNDING) for s in (-1 + 2 * ROUNDING / depth, 1 - 2 * ROUNDING / depth)]
+        corners = [
+            point(d, angle, s) for d in (inner + ROUNDING, outer - ROUNDING)
+            for s in (-1 + 2 * ROUNDING / depth, 1 - 2 * ROUNDING / depth)
+        ]
         first, second = (i - 1) if i else stones + 1, i if i < stones else stones
         joints.append(Joint(first, second, corners, (-math.sin(angle), 0, math.cos(angle))))
     return Building(blocks, fixed, joints, (0, 1, 0))
@@ -128,7 +144,8 @@ def arch(stones=12, thickness=1.3 * 0.1075, depth=0.14, radius=1.0):
 def _row(building, below=None, **keywords):
     """Pushed by `below`, by default 2 % less than the limit, and by 2 % more; accelerations over gravity."""
     limit = building.limit()
-    stands, falls = building.pushed(0.98 * limit if below is None else below, **keywords), building.pushed(1.02 * limit, **keywords)
+    stands, falls = building.pushed(0.98 * limit if below is None else below,
+                                    **keywords), building.pushed(1.02 * limit, **keywords)
     return {"value": stands[1], "target": RESTS, "limit": limit, "moved_standing": stands[0], "moved_falling": falls[0],
             "falls": stands[0] < FALLS / 2 and falls[0] > FALLS}
 

@@ -19,14 +19,17 @@ def _pyramid():
 
 
 def _cubes(falling):
-    """Five layers: with a gap of 1e-6 of the size below each if they fall, so that all meet in the first steps, else sunk in about as far as the layers above press."""
+    """Five layers: with a gap of 1e-6 of the size below each if they fall, so that all meet in the first steps, else
+    sunk in about as far as the layers above press.
+    """
     edge, sinking = math.ceil(math.sqrt(NUMBER / 5)), 4.5e-5 * SIZE
     drops = [0.0]
     for layer in range(5):
         drops.append(drops[-1] + (-1e-6 * SIZE if falling else (5 - layer) * sinking))
     for n in range(NUMBER):
         layer, rest = divmod(n, edge * edge)
-        add(block_shape((SIZE,) * 3, r=R), (1.001 * SIZE * (rest % edge), 1.001 * SIZE * (rest // edge), (layer + 0.5) * SIZE - drops[layer + 1]),
+        add(block_shape((SIZE, ) * 3, r=R), (1.001 * SIZE * (rest % edge), 1.001 * SIZE *
+                                             (rest // edge), (layer + 0.5) * SIZE - drops[layer + 1]),
             Quaternion((0, 0, 1), 1e-4 * (n % 7)))
 
 
@@ -45,7 +48,8 @@ def _law(patch, joints):
         for functor in O.engines[3].geomDispatcher.functors:
             functor.patch = patch
         O.engines[3] = yade.ConicInteractionLoop(
-            O.engines[3].geomDispatcher.functors, [yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=STIFFNESS, ks_i=STIFFNESS, Knormal=STIFFNESS, Kshear=STIFFNESS)],
+            O.engines[3].geomDispatcher.functors,
+            [yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=STIFFNESS, ks_i=STIFFNESS, Knormal=STIFFNESS, Kshear=STIFFNESS)],
             [yade.Law2_SCG_KnKsPhys_KnKsLaw(traceEnergy=False)])
 
 
@@ -79,7 +83,9 @@ def _row(joints):
 
 
 def cost_of_joints():
-    """Seconds of a step of 2,000 cubes, of 2,000 pyramids: the law of joints over YADE's at one point; at rest, and as they meet."""
+    """Seconds of a step of 2,000 cubes, of 2,000 pyramids: the law of joints over YADE's at one point; at rest, and as
+    they meet.
+    """
     return _row(joints=True)
 
 

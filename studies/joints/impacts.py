@@ -14,7 +14,8 @@ K = 1e11
 
 
 def _rocks():
-    one, other = (O.bodies[O.bodies.append(potential_particles.body(shapes.random_rock(seed=seed, size=0.8), position=(place, 0.1 * place, 0)))]
+    one, other = (O.bodies[O.bodies.append(
+        potential_particles.body(shapes.random_rock(seed=seed, size=0.8), position=(place, 0.1 * place, 0)))]
                   for seed, place in ((1, -0.5), (2, 0.5)))
     one.state.vel, other.state.vel = Vector3(1, 0.4, 0.2), Vector3(-1, 0.2, 0.3)
     return [one, other]
@@ -41,7 +42,8 @@ def _crossed_edges():
 class Drift:
     """Adds up what impacts change the energy by; looks every 20 default steps, fewer than an impact takes.
 
-    In free flight YADE's integrator changes the energy of bodies that spin about no principal axis, in proportion to the
+    In free flight YADE's integrator changes the energy of bodies that spin about no principal axis, in proportion to
+    the
     step: that is kept apart.
     """
 
@@ -66,8 +68,9 @@ class Drift:
 
 
 def drift(make, step=1.0, tolerance=1e-4, impacts=IMPACTS):
-    """Largest sum of what impacts changed the energy of two bodies in a box of walls by, relative; and what free flight did. `step` is a share of
-    the default one."""
+    """Largest sum of what impacts changed the energy of two bodies in a box of walls by, relative; and what free flight
+    did. `step` is a share of the default one.
+    """
     global watch
     fresh(tolerance=tolerance, gravity=(0, 0, 0), normalStiffness=K, frictionAngle=0.0)
     for axis in range(3):
@@ -83,7 +86,8 @@ def drift(make, step=1.0, tolerance=1e-4, impacts=IMPACTS):
     while O.running:
         time.sleep(0.01)
     if watch.left:
-        raise RuntimeError(f"YADE stopped at step {O.iter}, {watch.left} impacts before the end; its message stands above")
+        raise RuntimeError(
+            f"YADE stopped at step {O.iter}, {watch.left} impacts before the end; its message stands above")
     return watch.worst, watch.in_flight()
 
 

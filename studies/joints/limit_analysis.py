@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The largest load that rigid blocks on joints without tension can carry: the static theorem of limit analysis, a linear program.
+"""The largest load that rigid blocks on joints without tension can carry: the static theorem of limit analysis, a
+linear program.
 
-Each corner of a joint carries a force in a cone of friction, here a pyramid of DIRECTIONS sides inside it. A joint with its force at the corners resists twist
-more than one with a pressure over its area, and sliding is taken as if it opened the joint: both make the limit an upper bound where twist or sliding decides.
-Where blocks rock it is exact.
+Each corner of a joint carries a force in a cone of friction, here a pyramid of DIRECTIONS sides inside it. A joint with
+its force at the corners resists twist
+more than one with a pressure over its area, and sliding is taken as if it opened the joint: both make the limit an
+upper bound where twist or sliding decides. Where blocks rock it is exact.
 """
 import numpy as np
 from scipy.optimize import linprog
@@ -23,11 +25,14 @@ class Joint:
         across = np.cross(self.normal, np.eye(3)[np.argmin(abs(self.normal))])
         across /= np.linalg.norm(across)
         angles = 2 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS
-        return self.normal + friction * (np.outer(np.cos(angles), across) + np.outer(np.sin(angles), np.cross(self.normal, across)))
+        return self.normal + friction * (np.outer(np.cos(angles), across)
+                                         + np.outer(np.sin(angles), np.cross(self.normal, across)))
 
 
 def largest_load(centroids, weights, joints, friction, load):
-    """The largest a for which stones of these weights, with forces a * load besides, are in equilibrium. Stones: rows of `centroids`; others are fixed."""
+    """The largest a for which stones of these weights, with forces a * load besides, are in equilibrium. Stones: rows
+    of `centroids`; others are fixed.
+    """
     columns = []
     for joint in joints:
         forces = joint.forces(friction)

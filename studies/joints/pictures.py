@@ -22,8 +22,9 @@ def all_rows(listed, path):
 
 
 def spread_dashpots(ratio):
-    """What a block keeps that lands on a hard bed of dashpots that never pull and sticks to it: ln kept = -int q (1 - y)/(3 - q (1 - y) y) dy for y from -1/2 to
-    1/2, q = 1/(1/12 + 1/(3 ratio^2))."""
+    """What a block keeps that lands on a hard bed of dashpots that never pull and sticks to it: ln kept = -int q (1 -
+    y)/(3 - q (1 - y) y) dy for y from -1/2 to 1/2, q = 1/(1/12 + 1/(3 ratio^2)).
+    """
     q, steps = 1 / (1 / 12 + 1 / (3 * ratio**2)), [(i + 0.5) / 200 - 0.5 for i in range(200)]
     return math.exp(-sum(q * (1 - y) / (3 - q * (1 - y) * y) for y in steps) / 200)
 
@@ -33,12 +34,15 @@ def housner(row, path):
     figure, (kept, converged) = pyplot.subplots(1, 2, figsize=(9, 3.6))
     ratios = [0.2 + 0.01 * i for i in range(61)]
     kept.plot(ratios, [1 - 1.5 * math.sin(math.atan(one))**2 for one in ratios], color="black", label="Housner")
-    kept.plot(ratios, [spread_dashpots(one) for one in ratios], color="#999999", linestyle="--", label="dashpots spread over the face")
+    kept.plot(ratios, [spread_dashpots(one) for one in ratios], color="#999999", linestyle="--",
+              label="dashpots spread over the face")
     for number, (name, found) in enumerate((key, one) for key, one in row.items() if key.startswith("ratio_")):
         ratio, color = float(name[6:]), ("#4a7fb5", "#c0563b")[number % 2]
         closed = 1 - 1.5 * math.sin(math.atan(ratio))**2
-        kept.plot([ratio] * len(found["landing"]), [one * closed for one in found["landing"].values()], "o", color=color, label=f"landing, b/h = {ratio:g}")
-        converged.loglog([float(one) for one in found["rocking_by_stiffness"]], [abs(one - 1) for one in found["rocking_by_stiffness"].values()], "o-", color=color,
+        kept.plot([ratio] * len(found["landing"]), [one * closed for one in found["landing"].values()], "o",
+                  color=color, label=f"landing, b/h = {ratio:g}")
+        converged.loglog([float(one) for one in found["rocking_by_stiffness"]],
+                         [abs(one - 1) for one in found["rocking_by_stiffness"].values()], "o-", color=color,
                          label=f"with its weight, b/h = {ratio:g}")
     kept.set(xlabel="b/h", ylabel="angular velocity after / before")
     converged.axhline(row["rocking_target"], color="black", linewidth=1)

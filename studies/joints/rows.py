@@ -19,7 +19,10 @@ def face():
     cube.state.ori = Quaternion((0, 1, 0), tilt)
     O.step()
     force, moment = O.forces.f(cube.id)[2], O.forces.t(cube.id)[1]
-    return {"value": max(abs(force / (K * side**2 * overlap) - 1), abs(moment / (K * side**4 / 12 * tilt) + 1)), "target": 1e-3}
+    return {
+        "value": max(abs(force / (K * side**2 * overlap) - 1), abs(moment / (K * side**4 / 12 * tilt) + 1)),
+        "target": 1e-3
+    }
 
 
 def spin():
@@ -36,7 +39,9 @@ def spin():
     run(0.05)
     moment = (before - cube.state.angVel[2]) * cube.state.inertia[2] / 0.05
     run(0.1)
-    return {"value": abs(moment / (0.382598 * 0.5 * weight * side) - 1), "target": 2e-3, "spin_after": cube.state.angVel[2]}
+    return {
+        "value": abs(moment / (0.382598 * 0.5 * weight * side) - 1), "target": 2e-3, "spin_after": cube.state.angVel[2]
+    }
 
 
 def tiles():
@@ -87,7 +92,10 @@ def lintel(share=1.05, seconds=1.5):
 def lintels():
     """Thrust 2 % above and below what the joints need: the one stands (speed at the end, m/s), the other falls."""
     stands, falls = lintel(1.02), lintel(0.98)
-    return {"value": stands[1], "target": 1e-6, "moved_standing": stands[0], "moved_falling": falls[0], "falls": stands[0] < 1e-3 and falls[0] > 0.05}
+    return {
+        "value": stands[1], "target": 1e-6, "moved_standing": stands[0], "moved_falling": falls[0],
+        "falls": stands[0] < 1e-3 and falls[0] > 0.05
+    }
 
 
 def stack():
@@ -106,11 +114,14 @@ def _kept_by_housner(ratio):
 
 
 def landing(ratio, restitution, spin=0.8):
-    """Part of its angular velocity that a weightless block of width over height `ratio` keeps, which turns about an edge and lands on its face.
+    """Part of its angular velocity that a weightless block of width over height `ratio` keeps, which turns about an
+    edge and lands on its face.
 
-    That is what it has once the other edge rests: its angular momentum about that edge stays, however often it bounces there.
+    That is what it has once the other edge rests: its angular momentum about that edge stays, however often it bounces
+        there.
     """
-    fresh(gravity=(0, 0, 0), normalStiffness=2.5e11, shearStiffness=1.25e11, frictionAngle=math.atan(20.0), restitution=restitution)
+    fresh(gravity=(0, 0, 0), normalStiffness=2.5e11, shearStiffness=1.25e11, frictionAngle=math.atan(20.0),
+          restitution=restitution)
     wall((0, 0, 0), 2, 1)
     height = 1 / ratio
     block = add(block_shape((1, 1, height), r=1e-4), (0, 0, height / 2 - 1e-9))
@@ -126,8 +137,11 @@ def landing(ratio, restitution, spin=0.8):
 
 
 def rocking_impact(ratio, restitution, stiffness, start=0.7, begin=3e-3):
-    """The same of a block with its weight that was let go at `start` of the largest tilt, from its energy when it is `begin` (radians) past upright."""
-    fresh(normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=math.atan(5.0), restitution=restitution)
+    """The same of a block with its weight that was let go at `start` of the largest tilt, from its energy when it is
+    `begin` (radians) past upright.
+    """
+    fresh(normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=math.atan(5.0),
+          restitution=restitution)
     wall((0, 0, 0), 2, 1)
     height, slope = 1 / ratio, math.atan(ratio)
     block = add(block_shape((1, 1, height), r=1e-4), (0, 0, height / 2))
@@ -137,7 +151,8 @@ def rocking_impact(ratio, restitution, stiffness, start=0.7, begin=3e-3):
     def raised(tilt):
         return weight * (radius * math.cos(slope - tilt) - height / 2)
 
-    # It comes down about an edge through x = 0.5, which its weight has pressed into the floor; a turn about y by t lowers what lies at x > 0.
+    # It comes down about an edge through x = 0.5, which its weight has pressed into the floor; a turn about y by t
+    # lowers what lies at x > 0.
     turn, spin = Quaternion((0, 1, 0), begin), math.sqrt(2 * (raised(start * slope) - raised(begin)) / inertia)
     arm = turn * Vector3(-0.5, 0, height / 2)
     block.state.pos, block.state.ori = Vector3(0.5, 0, -math.sqrt(2 * weight * begin / stiffness)) + arm, turn
@@ -154,14 +169,18 @@ def rocking_impact(ratio, restitution, stiffness, start=0.7, begin=3e-3):
 
 
 def housner():
-    """Impact of stout blocks that land on their face, b/h = 0.5 and 0.7: the angular velocity kept over Housner's 1 - 3/2 sin^2 a; relative error.
+    """Impact of stout blocks that land on their face, b/h = 0.5 and 0.7: the angular velocity kept over Housner's 1 -
+    3/2 sin^2 a; relative error.
 
     rocking: of blocks with their weight, by stiffness (restitution 0.01); the largest error of the stiffest.
     """
     found = {"value": 0.0, "target": 5e-3, "rocking": 0.0, "rocking_target": 5e-3}
     for ratio in (0.5, 0.7):
         kept = {restitution: landing(ratio, restitution) / _kept_by_housner(ratio) for restitution in (0.1, 0.03, 0.01)}
-        rocked = {stiffness: rocking_impact(ratio, 0.01, stiffness) / _kept_by_housner(ratio) for stiffness in (2.5e11, 2.5e12, 2.5e13, 2.5e14, 2.5e15)}
+        rocked = {
+            stiffness: rocking_impact(ratio, 0.01, stiffness) / _kept_by_housner(ratio)
+            for stiffness in (2.5e11, 2.5e12, 2.5e13, 2.5e14, 2.5e15)
+        }
         found["value"] = max(found["value"], *(abs(one - 1) for one in kept.values()))
         found["rocking"] = max(found["rocking"], abs(rocked[2.5e15] - 1))
         found[f"ratio_{ratio}"] = {"landing": kept, "rocking_by_stiffness": rocked}

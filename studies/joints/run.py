@@ -27,9 +27,15 @@ def targets(name, row):
     for key in [key for key in row if key == "target" or key.endswith("_target")]:
         value = key[:-len("target")].rstrip("_") or "value"
         label = name if value == "value" else f"{name}, {value.replace('_', ' ')}"
-        yield {"name": label, "sense": "at most", "target": row[key], "measured": row[value], "met": bool(row[value] <= row[key])}
+        yield {
+            "name": label, "sense": "at most", "target": row[key], "measured": row[value],
+            "met": bool(row[value] <= row[key])
+        }
     if "falls" in row:
-        yield {"name": f"{name}, falls below", "sense": "is", "target": True, "measured": row["falls"], "met": bool(row["falls"])}
+        yield {
+            "name": f"{name}, falls below", "sense": "is", "target": True, "measured": row["falls"],
+            "met": bool(row["falls"])
+        }
 
 
 def main():
@@ -45,7 +51,9 @@ def main():
     pictures.all_rows([entry for entry in listed if entry["sense"] == "at most"], folder / "joints.png")
     for name in found.keys() & pictures.OF_ROWS.keys():
         pictures.OF_ROWS[name](found[name], folder / f"{name}.png")
-    print_table([(entry["name"], f"{entry['measured']:.3g}  (target {entry['target']:g}) {'met' if entry['met'] else 'MISSED'}") for entry in listed])
+    print_table([(entry["name"],
+                  f"{entry['measured']:.3g}  (target {entry['target']:g}) {'met' if entry['met'] else 'MISSED'}")
+                 for entry in listed])
 
 
 main()

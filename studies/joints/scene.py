@@ -23,13 +23,18 @@ def fresh(patch=True, gravity=(0, 0, -9.81), damping=0.0, track=False, tolerance
         O.materials.append(yade.ConicJointMat(density=2000.0, **material))
         laws = [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()], [yade.Law2_ScGeomConicPP_ConicJointPhys()]
     else:
-        O.materials.append(yade.FrictMat(density=2000.0, young=material["young"], poisson=0.3, frictionAngle=material["frictionAngle"]))
-        laws = [yade.Ip2_FrictMat_FrictMat_FrictPhys()], [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
+        O.materials.append(
+            yade.FrictMat(density=2000.0, young=material["young"], poisson=0.3,
+                          frictionAngle=material["frictionAngle"]))
+        laws = [yade.Ip2_FrictMat_FrictMat_FrictPhys()
+                ], [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]
     kinds = (yade.Ig2_ConicPP_ConicPP_ScGeom, yade.Ig2_Wall_ConicPP_ScGeom, yade.Ig2_Facet_ConicPP_ScGeom)
     O.engines = [
         yade.ForceResetter(),
         yade.BoundWatch(),
-        yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.005),
+        yade.InsertionSortCollider(
+            [yade.Bo1_ConicPP_Aabb(), yade.Bo1_Wall_Aabb(),
+             yade.Bo1_Facet_Aabb()], verletDist=0.005),
         yade.ConicInteractionLoop([kind(patch=patch, patchTolerance=tolerance) for kind in kinds], *laws),
         yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=gravity),
     ]
@@ -84,5 +89,3 @@ def moving():
 
 def fastest():
     return max(max(body.state.vel.norm(), body.state.angVel.norm() * body.shape.boundingRadius) for body in moving())
-
-

@@ -72,8 +72,8 @@ def loop(functor, springs, viscous=0.0, local=0.0, gravity=GRAVITY, never_erase=
     motion = yade.NewtonIntegrator(
         damping=local, exactAsphericalRot=True, gravity=(0.0, 0.0, -gravity), label="motion"
     )
-    # The only method of YADE 2023.02a. The default of later ones steps the angular velocity, so that the angular momentum
-    # is right only to the order of the step, and what a functor adds to it could not be told.
+    # The only method of YADE 2023.02a. The default of later ones steps the angular velocity, so that the angular
+    # momentum is right only to the order of the step, and what a functor adds to it could not be told.
     if hasattr(motion, "rotAlgorithm"):
         motion.rotAlgorithm = "Fincham1992"
     return [

@@ -71,7 +71,8 @@ def draw_bounce(path, bounces):
         for bounce, label, style in (
             (it.exact, "exact springs, same integrator", {"color": FLOOR, "linewidth": 5, "alpha": 0.5}),
             (it.library, f"this library, spin {it.library.spin:.0e} rad/s", {"color": OURS, "linewidth": 1.5}),
-            (it.builtin, f"built-in, spin {it.builtin.spin:.0e} rad/s", {"color": THEIRS, "marker": ".", "linewidth": 1}),
+            (it.builtin, f"built-in, spin {it.builtin.spin:.0e} rad/s",
+             {"color": THEIRS, "marker": ".", "linewidth": 1}),
         ):
             if bounce is None:
                 continue

@@ -3,9 +3,9 @@
 
     scripts/yade.sh -j1 studies/side_by_side/off_centre.py
 
-Environment: IMPACTS (16), STIFFNESS (10000 N/m). For the library and YADE's own functor, at time steps each half of the one
-before, the change of the kinetic energy over an impact. What shrinks with the step is the step's; what
-stays is the law's: overlap times stiffness along the normal is not the gradient of any energy.
+Environment: IMPACTS (16), STIFFNESS (10000 N/m). For the library and YADE's own functor, at time steps each half of the
+one before, the change of the kinetic energy over an impact. What shrinks with the step is the step's; what stays is the
+law's: overlap times stiffness along the normal is not the gradient of any energy.
 """
 
 import sys
@@ -46,8 +46,9 @@ def main():
 
 
 def impact(kind, seed, step, stiffness):
-    """Relative change of the kinetic energy, largest overlap over r, and the energy then stored over the whole; None when
-    the two miss each other."""
+    """Relative change of the kinetic energy, largest overlap over r, and the energy then stored over the whole; None
+    when the two miss each other.
+    """
     chance = np.random.default_rng(seed)
     contact = ContactFunctor(kind)
     O.reset()

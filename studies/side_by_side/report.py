@@ -121,14 +121,16 @@ def _missed(physics):
 
 def _print_bounces(bounces, free):
     print("\nTwo cubes bouncing head-on: change of energy, and spin (rad/s) that ought to be 0")
-    table = [["steps a contact", "springs", "contacts kept", "exact springs", "ours", "bounces", "spin", "built-in", "bounces", "spin"]]
+    table = [[
+        "steps a contact", "springs", "contacts kept", "exact springs", "ours", "bounces", "spin", "built-in",
+        "bounces", "spin"
+    ]]
     for row in bounces:
         ours, theirs = row["library"], row["built_in"]
         table.append(
             [str(row["steps_per_contact"]), row["springs"], "yes" if row["law_keeps_contacts"] else "no"]
-            + [_text(row["exact_springs_drift"], ".2e")]
-            + [text for it in (ours, theirs) for text in (f"{it['drift']:.2e}", str(it["bounces"]), f"{it['spin']:.1e}")]
-        )
+            + [_text(row["exact_springs_drift"], ".2e")] +
+            [text for it in (ours, theirs) for text in (f"{it['drift']:.2e}", str(it["bounces"]), f"{it['spin']:.1e}")])
     _columns(table)
     if free:
         theirs, ours = free[BUILTIN], free[DROP_IN]
@@ -152,7 +154,9 @@ def _print_answers(answers):
 
 def _print_stages(pile):
     print(f"\nOne step of {pile['bodies']} pyramids by part, us")
-    table = [["state", "functor", "pairs", "touching", "collider", "functor", "law, loop", "integrator", "step", "over floor"]]
+    table = [[
+        "state", "functor", "pairs", "touching", "collider", "functor", "law, loop", "integrator", "step", "over floor"
+    ]]
     for stage in pile["stages"]:
         floor = stage["idle_microseconds"]["step"]
         for key, name in (("idle", "none"), ("library", "ours"), ("built_in", "built-in")):
@@ -171,7 +175,8 @@ def _print_targets(rows):
     print()
     table = [["what", "target", "measured", "met"]]
     for row in rows:
-        table.append([row["name"], f"{row['sense']} {row['target']:g}", f"{row['measured']:.3g}", "yes" if row["met"] else "NO"])
+        table.append(
+            [row["name"], f"{row['sense']} {row['target']:g}", f"{row['measured']:.3g}", "yes" if row["met"] else "NO"])
     _columns(table)
 
 

@@ -137,7 +137,8 @@ def run_bounces(plan, results, report, _out):
 
 def run_pile(plan, results, report, _out):
     last = plan.stages[-1][1]
-    results["stages"] = measure_stages(plan.bodies, plan.stages, 1 if plan.quick else ROUNDS, lambda step: report(step / last))
+    results["stages"] = measure_stages(plan.bodies, plan.stages, 1 if plan.quick else ROUNDS,
+                                       lambda step: report(step / last))
 
 
 def run_answers(plan, results, _report, out):

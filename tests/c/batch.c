@@ -43,7 +43,8 @@ typedef struct {
     pp_status statuses[MANY];
 } results;
 
-static pp_status batch(const scene *s, const pp_settings *settings, uint32_t threads, pp_pair_state *states, results *r) {
+static pp_status batch(const scene* s, const pp_settings* settings, uint32_t threads, pp_pair_state* states, results* r)
+{
     return pp_contact_detect_batch(s->particles, s->poses, BODIES, s->pairs, MANY, settings, threads, states,
                                    r->contacts, r->statuses);
 }
@@ -215,7 +216,8 @@ static void bad_arguments_write_nothing(results *got) {
     /* Where a pointer to nothing leads does not matter: other languages have such ones. */
     void *anywhere = (void *)(uintptr_t)1;
     CHECK_STATUS(BATCH(s.particles, s.poses, BODIES, anywhere, 0, anywhere, anywhere), PP_OK);
-    CHECK_STATUS(pp_contact_detect_batch(anywhere, anywhere, 0, anywhere, 0, NULL, 1, anywhere, anywhere, anywhere), PP_OK);
+    CHECK_STATUS(pp_contact_detect_batch(anywhere, anywhere, 0, anywhere, 0, NULL, 1, anywhere, anywhere, anywhere),
+                 PP_OK);
     CHECK_UNTOUCHED(*got);
     CHECK_STATUS(BATCH(NULL, NULL, 0, s.pairs, 1, got->contacts, got->statuses), PP_OK);
     CHECK_STATUS(got->statuses[0], PP_BAD_INDEX);

@@ -38,7 +38,8 @@ static void a_hull_is_known_by_its_frame(void) {
     CHECK(built.mass.inertia[0] > built.mass.inertia[1] && built.mass.inertia[2] > built.mass.inertia[0]);
 
     /* The same from its faces, with normals of any length. */
-    const double faces[6][4] = {{2, 0, 0, 22}, {-1, 0, 0, -9}, {0, 1, 0, 21.5}, {0, -3, 0, -55.5}, {0, 0, 1, 30.5}, {0, 0, -1, -29.5}};
+    const double faces[6][4] = { { 2, 0, 0, 22 },     { -1, 0, 0, -9 },  { 0, 1, 0, 21.5 },
+                                 { 0, -3, 0, -55.5 }, { 0, 0, 1, 30.5 }, { 0, 0, -1, -29.5 } };
     pp_particle *same = NULL;
     pp_built again;
     CHECK(pp_particle_from_faces(&faces[0][0], 6, 0.05, 0.0, 0.0, &same, &again, NULL, 0) == PP_OK);
@@ -48,20 +49,30 @@ static void a_hull_is_known_by_its_frame(void) {
 }
 
 static void what_is_no_body_is_told(void) {
-    const double flat[5][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}, {2, 1, 0}}, planes[2][4] = {{1, 0, 0, 1}, {-1, 0, 0, 1}};
+    const double flat[5][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 }, { 2, 1, 0 } },
+                 planes[2][4] = { { 1, 0, 0, 1 }, { -1, 0, 0, 1 } };
     const double none[1][4] = {{0, 0, 0, 1}}, infinite[4][3] = {{INFINITY, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const double corner[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     pp_particle *out = NULL;
     char why[PP_MESSAGE_SIZE];
-    CHECK(pp_particle_from_points(&flat[0][0], 5, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED && strstr(why, "flat"));
-    CHECK(pp_particle_from_points(&flat[0][0], 3, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED && strstr(why, "3 points"));
-    CHECK(pp_particle_from_points(&infinite[0][0], 4, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_POINT && strstr(why, "point 0"));
-    CHECK(pp_particle_from_faces(&planes[0][0], 2, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED && strstr(why, "enclose"));
-    CHECK(pp_particle_from_faces(&none[0][0], 1, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_PLANE_ZERO_NORMAL && strstr(why, "plane 0"));
-    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.5, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_ROUNDING_RADIUS && strstr(why, "rounding=0.5"));
-    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 2, 0, &out, NULL, why, sizeof why) == PP_BAD_SPHERICITY && strstr(why, "k=2"));
-    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 0, -1, &out, NULL, why, sizeof why) == PP_BAD_SHADOW_RADIUS && strstr(why, "R=-1"));
-    CHECK(pp_particle_from_points(NULL, 4, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_NULL_POINTER && strstr(why, "points"));
+    CHECK(pp_particle_from_points(&flat[0][0], 5, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "flat"));
+    CHECK(pp_particle_from_points(&flat[0][0], 3, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "3 points"));
+    CHECK(pp_particle_from_points(&infinite[0][0], 4, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_POINT
+          && strstr(why, "point 0"));
+    CHECK(pp_particle_from_faces(&planes[0][0], 2, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "enclose"));
+    CHECK(pp_particle_from_faces(&none[0][0], 1, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_PLANE_ZERO_NORMAL
+          && strstr(why, "plane 0"));
+    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.5, 0, 0, &out, NULL, why, sizeof why) == PP_BAD_ROUNDING_RADIUS
+          && strstr(why, "rounding=0.5"));
+    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 2, 0, &out, NULL, why, sizeof why) == PP_BAD_SPHERICITY
+          && strstr(why, "k=2"));
+    CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 0, -1, &out, NULL, why, sizeof why) == PP_BAD_SHADOW_RADIUS
+          && strstr(why, "R=-1"));
+    CHECK(pp_particle_from_points(NULL, 4, 0.1, 0, 0, &out, NULL, why, sizeof why) == PP_NULL_POINTER
+          && strstr(why, "points"));
     CHECK(pp_particle_from_points(&corner[0][0], 4, 0.1, 0, 0, NULL, NULL, NULL, 0) == PP_NULL_POINTER);
     CHECK(out == NULL);
 }
@@ -92,17 +103,21 @@ static void a_polyhedron_is_sharp_until_it_is_rounded(void) {
     CHECK(pp_polyhedron_triangles(brick, &triangles[0][0], 12, &count) == PP_OK && count == 12);
     /* Its own surface is closed and convex, and no longer with one triangle less. */
     CHECK(pp_surface_is_closed(&corners[0][0], 8, &triangles[0][0], 12, why, sizeof why) == PP_OK);
-    CHECK(pp_surface_is_closed(&corners[0][0], 8, &triangles[0][0], 11, why, sizeof why) == PP_UNBOUNDED && strstr(why, "open: 3 edges"));
+    CHECK(pp_surface_is_closed(&corners[0][0], 8, &triangles[0][0], 11, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "open: 3 edges"));
     CHECK(pp_polyhedron_from_surface(&corners[0][0], 8, &triangles[0][0], 12, 0.0, &other, why, sizeof why) == PP_OK);
     pp_polyhedron_free(other);
-    CHECK(pp_polyhedron_from_surface(&corners[0][0], 7, &triangles[0][0], 12, 0.0, &other, why, sizeof why) == PP_BAD_POINT && strstr(why, "point 7"));
+    CHECK(pp_polyhedron_from_surface(&corners[0][0], 7, &triangles[0][0], 12, 0.0, &other, why, sizeof why)
+              == PP_BAD_POINT
+          && strstr(why, "point 7"));
 
     CHECK(pp_particle_from_polyhedron(brick, 0.1, 0.0, 0.0, 1e-6, &particle, &built, NULL, 0) == PP_OK);
     CHECK(pp_particle_rounding_radius(particle, &r) == PP_OK && r == 0.1);
     CHECK_NEAR(built.centroid[0], 1001.5, 1e-5);
     CHECK(built.mass.volume > 5.7 && built.mass.volume < 6.0);
     pp_particle_free(particle);
-    CHECK(pp_polyhedron_from_faces(&faces[0][0], 6, &other, NULL, 0) == PP_OK && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
+    CHECK(pp_polyhedron_from_faces(&faces[0][0], 6, &other, NULL, 0) == PP_OK
+          && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
     CHECK_NEAR(mass.volume, 6.0, 1e-9);
     pp_polyhedron_free(other);
     CHECK(pp_polyhedron_from_faces(NULL, 6, &other, why, sizeof why) == PP_NULL_POINTER && strstr(why, "NULL"));
@@ -112,17 +127,22 @@ static void a_polyhedron_is_sharp_until_it_is_rounded(void) {
     CHECK(pp_polyhedron_properties(brick, NULL, &size) == PP_NULL_POINTER);
     CHECK(pp_principal_axes(NULL, &size) == PP_NULL_POINTER);
     CHECK(pp_particle_from_polyhedron(NULL, 0.1, 0.0, 0.0, 1e-6, &particle, NULL, why, sizeof why) == PP_NULL_POINTER);
-    CHECK(pp_particle_from_polyhedron(brick, 0.6, 0.0, 0.0, 1e-6, &particle, NULL, why, sizeof why) == PP_BAD_ROUNDING_RADIUS && strstr(why, "between 0 and 0.5"));
+    CHECK(pp_particle_from_polyhedron(brick, 0.6, 0.0, 0.0, 1e-6, &particle, NULL, why, sizeof why)
+              == PP_BAD_ROUNDING_RADIUS
+          && strstr(why, "between 0 and 0.5"));
     CHECK(pp_particle_from_polyhedron(brick, 0.1, 0.0, 0.0, 2.0, &particle, NULL, why, sizeof why) == PP_BAD_SETTING);
     pp_polyhedron_free(brick);
 
-    CHECK(pp_polyhedron_prism(4, 0.5, 0.0, 3.0, &other, NULL, 0) == PP_OK && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
+    CHECK(pp_polyhedron_prism(4, 0.5, 0.0, 3.0, &other, NULL, 0) == PP_OK
+          && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
     CHECK_NEAR(mass.volume, 1.0, 1e-12);
     pp_polyhedron_free(other);
-    CHECK(pp_polyhedron_regular_solid(8, 1.0, &other, NULL, 0) == PP_OK && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
+    CHECK(pp_polyhedron_regular_solid(8, 1.0, &other, NULL, 0) == PP_OK
+          && pp_polyhedron_properties(other, &mass, NULL) == PP_OK);
     CHECK_NEAR(mass.volume, sqrt(2.0) / 3.0, 1e-12);
     pp_polyhedron_free(other);
-    CHECK(pp_polyhedron_regular_solid(7, 1.0, &other, why, sizeof why) == PP_UNBOUNDED && strstr(why, "4, 6, 8, 12 or 20"));
+    CHECK(pp_polyhedron_regular_solid(7, 1.0, &other, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "4, 6, 8, 12 or 20"));
     pp_polyhedron_free(NULL);
 
     /* Of 3, 2 and 1 about axes that are turned by 30 degrees about z. */

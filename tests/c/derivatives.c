@@ -38,8 +38,9 @@ static void spheres(void) {
         pp_shape_gradient of_small = {NULL, 0, 0, 0, 0}, of_large = {NULL, 0, 0, 0, 0};
         pp_pose_gradient poses[2];
         uint32_t flags = 77;
-        CHECK_STATUS(pp_contact_gradient(small, &here, large, &there, &settings, &contact, &weights, &of_small, &of_large,
-                                         poses, &flags), PP_OK);
+        CHECK_STATUS(pp_contact_gradient(small, &here, large, &there, &settings, &contact, &weights, &of_small,
+                                         &of_large, poses, &flags),
+                     PP_OK);
         CHECK_NEAR(of_small.shadow_radius, 2, 1e-13);
         CHECK_NEAR(of_large.shadow_radius, 2, 1e-13);
         CHECK(flags == 0);
@@ -102,7 +103,8 @@ static void cube_on_boundaries(void) {
 static void patch(void) {
     const double radius = 1.0, overlap = 1e-4;
     pp_particle *ball = new_sphere(radius);
-    pp_pose here = pose_at(0, 0, 0), there = pose_at(2 * radius - overlap, 0, 0), above = pose_at(0, 0, radius - overlap);
+    pp_pose here = pose_at(0, 0, 0), there = pose_at(2 * radius - overlap, 0, 0),
+            above = pose_at(0, 0, radius - overlap);
     const double point[3] = {0, 0, 0}, normal[3] = {0, 0, 1};
     pp_contact contact;
     pp_flat_contact flat;
@@ -167,8 +169,9 @@ static void refused(void) {
     pp_pose_gradient poses[2];
     uint32_t flags;
     FILL(poses);
-    CHECK_STATUS(pp_contact_gradient(cube, &here, ball, &there, NULL, &contact, &weights, &gradient, NULL, poses, &flags),
-                 PP_BAD_INDEX);
+    CHECK_STATUS(
+        pp_contact_gradient(cube, &here, ball, &there, NULL, &contact, &weights, &gradient, NULL, poses, &flags),
+        PP_BAD_INDEX);
     weights.s = NAN;
     CHECK_STATUS(pp_contact_gradient(cube, &here, ball, &there, NULL, &contact, &weights, NULL, NULL, poses, &flags),
                  PP_BAD_SETTING);

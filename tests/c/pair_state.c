@@ -98,7 +98,8 @@ static double any_number(random_numbers *numbers) {
     return any;
 }
 
-/* States of random numbers that say they are filled: the kind is that of the cold answer, and the gap tells something. */
+/* States of random numbers that say they are filled: the kind is that of the cold answer, and the gap says something.
+ */
 static void state_of_random_numbers(const pair_set *set) {
     random_numbers numbers = {23};
     int overlapping = 0;

@@ -18,7 +18,8 @@ static void spheres(void) {
     static pp_patch_point points[ROOM];
     size_t count = 0;
     CHECK_STATUS(pp_contact_detect(a, &pose_a, b, &pose_b, NULL, NULL, &contact), PP_OK);
-    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, ROOM, &count), PP_OK);
+    CHECK_STATUS(pp_patch_of_contact(a, &pose_a, b, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, ROOM, &count),
+                 PP_OK);
     const double reduced = radius_a * radius_b / (radius_a + radius_b), force = PI * reduced * overlap * overlap;
     CHECK_NEAR(patch.force[0], force, 1e-4 * force);
     CHECK_NEAR(patch.energy, force * overlap / 3, 1e-4 * force * overlap);
@@ -74,18 +75,21 @@ static void sphere_on_a_floor(void) {
     for (int i = 0; i < 2; i++) {
         pp_patch part;
         CHECK_STATUS(pp_contact_triangle(ball, &pose, halves[i], NULL, NULL, &contact), PP_OK);
-        CHECK_STATUS(pp_patch_on_triangle(ball, &pose, halves[i], 1, &contact, 1e-8, 0, NULL, &part, NULL, 0, NULL), PP_OK);
+        CHECK_STATUS(pp_patch_on_triangle(ball, &pose, halves[i], 1, &contact, 1e-8, 0, NULL, &part, NULL, 0, NULL),
+                     PP_OK);
         sum += part.force[2];
     }
     CHECK_NEAR(sum, whole.force[2], 1e-7 * force);
     pp_particle_free(ball);
 }
 
-/* Of a pair and of a floor: the third look at the same pose is carried on, and one a little deeper presses as the two spheres do. */
+/* Of a pair and of a floor: the third look at the same pose is carried on, and one a little deeper presses as the two
+ * spheres do. */
 static void carried_on(void) {
     const double radius = 1.0, overlap = 1e-4, deeper = 2e-7;
     pp_particle *ball = new_sphere(radius);
-    pp_pose here = pose_at(1, 2, 3), there = pose_at(1 + 2 * radius - overlap, 2, 3), above = pose_at(0, 0, radius - overlap);
+    pp_pose here = pose_at(1, 2, 3), there = pose_at(1 + 2 * radius - overlap, 2, 3),
+            above = pose_at(0, 0, radius - overlap);
     const double point[3] = {0, 0, 0}, normal[3] = {0, 0, 1}, triangle[9] = {-1, -1, 0, 1, -1, 0, 0, 1, 0};
     pp_patch_state states[3] = {{{0}}};
     pp_patch patches[3];
@@ -98,10 +102,13 @@ static void carried_on(void) {
         CHECK_STATUS(pp_contact_detect(ball, &here, ball, &there, NULL, NULL, &pair), PP_OK);
         CHECK_STATUS(pp_contact_plane(ball, &above, point, normal, NULL, NULL, &floor), PP_OK);
         CHECK_STATUS(pp_contact_triangle(ball, &above, triangle, NULL, NULL, &part), PP_OK);
-        CHECK_STATUS(pp_patch_of_contact(ball, &here, ball, &there, &pair, 1e-4, 0, &states[0], &patches[0], NULL, 0, NULL), PP_OK);
+        CHECK_STATUS(
+            pp_patch_of_contact(ball, &here, ball, &there, &pair, 1e-4, 0, &states[0], &patches[0], NULL, 0, NULL),
+            PP_OK);
         CHECK_STATUS(pp_patch_on_plane(ball, &above, &floor, 1e-4, 0, &states[1], &patches[1], NULL, 0, NULL), PP_OK);
-        CHECK_STATUS(pp_patch_on_triangle(ball, &above, triangle, 1, &part, 1e-4, 0, &states[2], &patches[2], NULL, 0, NULL),
-                     PP_OK);
+        CHECK_STATUS(
+            pp_patch_on_triangle(ball, &above, triangle, 1, &part, 1e-4, 0, &states[2], &patches[2], NULL, 0, NULL),
+            PP_OK);
         const double load = PI * radius * depth * depth;
         CHECK_NEAR(patches[0].force[0], 0.5 * load, 3e-4 * load);
         CHECK_NEAR(patches[1].force[2], -load, 3e-4 * load);
@@ -114,7 +121,9 @@ static void carried_on(void) {
     static pp_patch_point points[ROOM];
     size_t count = 0;
     CHECK_STATUS(pp_contact_detect(ball, &here, ball, &there, NULL, NULL, &pair), PP_OK);
-    CHECK_STATUS(pp_patch_of_contact(ball, &here, ball, &there, &pair, 1e-4, 0, &states[0], &whole, points, ROOM, &count), PP_OK);
+    CHECK_STATUS(
+        pp_patch_of_contact(ball, &here, ball, &there, &pair, 1e-4, 0, &states[0], &whole, points, ROOM, &count),
+        PP_OK);
     CHECK(whole.flags == 0 && count > 0);
     CHECK_NEAR(whole.force[0], patches[0].force[0], 2e-4 * whole.force[0]);
     pp_particle_free(ball);
@@ -130,8 +139,9 @@ static void squares_of_the_plane(void) {
     pp_patch_point_2d points[64];
     size_t count = 0;
     CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, NULL, NULL, &contact), PP_OK);
-    CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, 64, &count),
-                 PP_OK);
+    CHECK_STATUS(
+        pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, 64, &count),
+        PP_OK);
     CHECK_NEAR(patch.length, 0.8, 1e-4);
     CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
     CHECK_NEAR(patch.pressure_centre[0], 1.1, 1e-9);
@@ -143,12 +153,15 @@ static void squares_of_the_plane(void) {
     CHECK_NEAR(length, patch.length, 1e-12);
     pp_patch_state state = {0};
     for (int i = 0; i < 3; i++)
-        CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, &state, &patch, NULL, 0, NULL), PP_OK);
+        CHECK_STATUS(
+            pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, &state, &patch, NULL, 0, NULL),
+            PP_OK);
     CHECK(patch.flags & PP_PATCH_CARRIED);
     CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
     FILL(patch);
-    CHECK_STATUS(pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 0.0, 0, NULL, &patch, NULL, 0, NULL),
-                 PP_BAD_SETTING);
+    CHECK_STATUS(
+        pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 0.0, 0, NULL, &patch, NULL, 0, NULL),
+        PP_BAD_SETTING);
     CHECK_UNTOUCHED(patch);
     pp_particle_free_2d(square);
 }
@@ -172,15 +185,17 @@ static void what_is_refused(void) {
                  PP_NULL_POINTER);
     CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, NULL, 1, NULL),
                  PP_NULL_POINTER);
-    CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, &point, 1, NULL),
-                 PP_NULL_POINTER);
+    CHECK_STATUS(
+        pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 0, NULL, &patch, &point, 1, NULL),
+        PP_NULL_POINTER);
     CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &far, &apart, 1e-4, 0, NULL, &patch, NULL, 0, NULL),
                  PP_BAD_POINT);
     const double bad[] = {NAN, INFINITY, -1e-4, 0.0, 0.99e-12, 0.1001};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         check_case("tolerance = %g", bad[i]);
-        CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, bad[i], 0, NULL, &patch, NULL, 0, NULL),
-                     PP_BAD_SETTING);
+        CHECK_STATUS(
+            pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, bad[i], 0, NULL, &patch, NULL, 0, NULL),
+            PP_BAD_SETTING);
     }
     check_case(NULL);
     CHECK_STATUS(pp_patch_of_contact(sphere, &pose_a, sphere, &pose_b, &contact, 1e-4, 2, NULL, &patch, NULL, 0, NULL),

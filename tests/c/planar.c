@@ -110,7 +110,8 @@ static void lines_are_checked(void) {
         open.k = 0.0;
         check_case("%zu lines of a square", count);
         check_refused(&open, PP_UNBOUNDED, "the lines do not enclose an area");
-        pp_particle_free_2d(new_polygon_2d(open.lines, count, open.r, 0.3, open.shadow_radius)); /* the circle closes it */
+        pp_particle_free_2d(
+            new_polygon_2d(open.lines, count, open.r, 0.3, open.shadow_radius)); /* the circle closes it */
     }
     check_case(NULL);
 }
@@ -128,7 +129,8 @@ static void lines_are_limited_and_null_refused(void) {
     CHECK(strstr(message, "65537 lines") != NULL);
     CHECK_STATUS(pp_particle_new_2d(lines, SIZE_MAX, 0.5, 0.3, 2.0, &particle, NULL, 0), PP_TOO_MANY_PLANES);
     CHECK_STATUS(pp_particle_new_2d(lines, most, 0.5, 0.3, 2.0, &particle, NULL, 0), PP_PLANE_ZERO_NORMAL);
-    CHECK_STATUS(pp_particle_new_2d(NULL, SQUARE_LINES, 0.5, 0.3, 2.0, &particle, message, sizeof message), PP_NULL_POINTER);
+    CHECK_STATUS(pp_particle_new_2d(NULL, SQUARE_LINES, 0.5, 0.3, 2.0, &particle, message, sizeof message),
+                 PP_NULL_POINTER);
     CHECK(strstr(message, "lines and out") != NULL);
     CHECK_UNTOUCHED(particle);
     CHECK_STATUS(pp_particle_new_2d(NULL, 0, 0.0, 1.0, 2.0, NULL, message, sizeof message), PP_NULL_POINTER);
@@ -251,14 +253,16 @@ static void stacked_squares(void) {
         accuracy allowed = accuracy_of(settings.back_end, 1.0);
         pp_contact_2d contact;
         check_case("stacked squares, %s", ways[w].name);
-        if (!CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, &settings, NULL, &contact), PP_OK)) continue;
+        if (!CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, &settings, NULL, &contact), PP_OK))
+            continue;
         CHECK_NEAR(contact.s, s, contact.gap + 1e-14);
         CHECK_NEAR2(contact.normal, 0, 1, allowed.direction);
         CHECK_NEAR(contact.overlap, 2 * (core + r) - height, allowed.length);
         CHECK_NEAR(contact.point[1], 6 + height / 2, allowed.length);
         if (settings.back_end == PP_FAST) CHECK_NEAR(contact.point[0], 5 + shift / 2, 1e-9);
         double rim = r * sqrt(1 - s * s);
-        CHECK_NEAR(length_of(square, &pose_a, square, &pose_b, &contact), 2 * (core + rim) - shift, 10 * allowed.length);
+        CHECK_NEAR(length_of(square, &pose_a, square, &pose_b, &contact), 2 * (core + rim) - shift,
+                   10 * allowed.length);
     }
     check_case(NULL);
     pp_particle_free_2d(square);
@@ -315,7 +319,8 @@ static void bad_input_is_refused(void) {
             spoilt[0].normal[j] = spoilt[1].branch_a[j] = spoilt[2].branch_b[j] = not_finite[value];
             for (int field = 0; field < 3; field++) {
                 check_case("field %d, component %d = %g", field, j, not_finite[value]);
-                CHECK_STATUS(pp_contact_length_2d(circle, &home, circle, &beside, &spoilt[field], &length), PP_BAD_POINT);
+                CHECK_STATUS(pp_contact_length_2d(circle, &home, circle, &beside, &spoilt[field], &length),
+                             PP_BAD_POINT);
             }
         }
     }
@@ -325,7 +330,8 @@ static void bad_input_is_refused(void) {
     check_case("settings");
     pp_settings spoilt = default_settings();
     spoilt.formulation = 2;
-    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &state, &contact), PP_UNKNOWN_FORMULATION);
+    CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &state, &contact),
+                 PP_UNKNOWN_FORMULATION);
     spoilt = default_settings();
     spoilt.gap_tolerance = NAN;
     CHECK_STATUS(pp_contact_detect_2d(circle, &home, circle, &beside, &spoilt, &state, &contact), PP_BAD_SETTING);
@@ -343,7 +349,8 @@ static void bad_input_is_refused(void) {
 
 static void state_and_rejection(void) {
     pp_particle_2d *square = new_square_2d(1.0, 0.5, 0.3, 2.0);
-    const pp_pose_2d home = {.angle = 0.3}, beside = {.position = {2.4, 0.4}, .angle = -0.2}, far = {.position = {30, 0}};
+    const pp_pose_2d home = { .angle = 0.3 }, beside = { .position = { 2.4, 0.4 }, .angle = -0.2 },
+                     far = { .position = { 30, 0 } };
     pp_pair_state state = {0};
     pp_contact_2d cold, warm;
     CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &beside, NULL, &state, &cold), PP_OK);
@@ -356,7 +363,8 @@ static void state_and_rejection(void) {
     pp_contact_2d apart;
     CHECK_STATUS(pp_contact_detect_2d(square, &home, square, &far, NULL, NULL, &apart), PP_OK);
     CHECK(apart.kind == PP_SEPARATED && (apart.flags & PP_FLAG_REJECTED) && apart.s >= 1);
-    CHECK(isnan(apart.weight) && isnan(apart.point_bound) && isnan(apart.normal[0]) && isnan(apart.point[1]) && isnan(apart.branch_a[0]));
+    CHECK(isnan(apart.weight) && isnan(apart.point_bound) && isnan(apart.normal[0]) && isnan(apart.point[1])
+          && isnan(apart.branch_a[0]));
     /* The distance is proved: no more than the true one, and more than nothing at thirty half sizes. */
     CHECK(apart.distance > 20 && apart.distance < 28);
     CHECK(isnan(cold.distance));
@@ -419,9 +427,11 @@ static void polygon_from_points(void) {
     const double on_a_line[] = {0, 0, 1, 1, 2, 2}, not_finite[] = {0, 0, 1, NAN, 1, 0};
     CHECK_STATUS(pp_particle_new_polygon_2d(on_a_line, 3, r, 0.0, &none, message, sizeof message), PP_UNBOUNDED);
     CHECK(strstr(message, "enclose no area") != NULL);
-    CHECK_STATUS(pp_particle_new_polygon_2d(not_finite, 3, r, 0.0, &none, message, sizeof message), PP_PLANE_NOT_FINITE);
+    CHECK_STATUS(pp_particle_new_polygon_2d(not_finite, 3, r, 0.0, &none, message, sizeof message),
+                 PP_PLANE_NOT_FINITE);
     CHECK(strstr(message, "vertex 1") != NULL);
-    CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, 2.0, 0.0, &none, message, sizeof message), PP_BAD_ROUNDING_RADIUS);
+    CHECK_STATUS(pp_particle_new_polygon_2d(points, 4, 2.0, 0.0, &none, message, sizeof message),
+                 PP_BAD_ROUNDING_RADIUS);
     memset(message, 'x', sizeof message);
     CHECK_STATUS(pp_particle_new_polygon_2d(points, SIZE_MAX, r, 0.0, &none, message, sizeof message), PP_BAD_INDEX);
     CHECK(strcmp(message, pp_status_message(PP_BAD_INDEX)) == 0);

@@ -44,7 +44,8 @@ typedef struct {
     pp_status statuses[MANY];
 } results;
 
-static pp_status batch(const scene *s, const pp_settings *settings, uint32_t threads, pp_pair_state *states, results *r) {
+static pp_status batch(const scene* s, const pp_settings* settings, uint32_t threads, pp_pair_state* states, results* r)
+{
     return pp_contact_detect_batch_2d(s->particles, s->poses, BODIES, s->pairs, MANY, settings, threads, states,
                                       r->contacts, r->statuses);
 }
@@ -159,7 +160,8 @@ static void bad_arguments_write_nothing(const scene *s, results *got) {
     CHECK_STATUS(batch(s, &settings, 2, got->states, got), PP_BAD_SETTING);
     CHECK_STATUS(pp_contact_detect_batch_2d(NULL, NULL, 0, NULL, 0, NULL, 4, NULL, NULL, NULL), PP_OK);
     void *anywhere = (void *)(uintptr_t)1;
-    CHECK_STATUS(pp_contact_detect_batch_2d(anywhere, anywhere, 0, anywhere, 0, NULL, 1, anywhere, anywhere, anywhere), PP_OK);
+    CHECK_STATUS(pp_contact_detect_batch_2d(anywhere, anywhere, 0, anywhere, 0, NULL, 1, anywhere, anywhere, anywhere),
+                 PP_OK);
     CHECK_UNTOUCHED(*got);
 #undef BATCH
 }

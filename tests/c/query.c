@@ -138,7 +138,8 @@ static void bounding_radius_holds_the_particle(void) {
 }
 
 static void open_planes_are_told(void) {
-    const double planes[6][4] = {{1, 0, 0, 0.9}, {-1, 0, 0, 0.9}, {0, 1, 0, 0.9}, {0, -1, 0, 0.9}, {0, 0, -1, 0.9}, {0, 0, 1, 0.9}};
+    const double planes[6][4] = { { 1, 0, 0, 0.9 },  { -1, 0, 0, 0.9 }, { 0, 1, 0, 0.9 },
+                                  { 0, -1, 0, 0.9 }, { 0, 0, -1, 0.9 }, { 0, 0, 1, 0.9 } };
     for (size_t count = 0; count <= 6; count++) {
         pp_particle *particle;
         int32_t enclose = -1;

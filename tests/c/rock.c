@@ -9,7 +9,8 @@
 enum { SIDES = 6, MOST = 4096 };
 
 /* Half sides 1, about the origin. */
-static const double cube[SIDES][4] = {{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}, {0, 0, 1, 1}, {0, 0, -1, 1}};
+static const double cube[SIDES][4] = { { 1, 0, 0, 1 },  { -1, 0, 0, 1 }, { 0, 1, 0, 1 },
+                                       { 0, -1, 0, 1 }, { 0, 0, 1, 1 },  { 0, 0, -1, 1 } };
 static const double middle[3] = {0, 0, 0};
 
 static pp_joint joint(double dip, double dip_direction) {
@@ -18,10 +19,14 @@ static pp_joint joint(double dip, double dip_direction) {
     return made;
 }
 
-static pp_rock *cut(const double *region, size_t planes, const pp_slice_settings *settings, pp_rock_progress progress, void *context) {
+static pp_rock* cut(const double* region, size_t planes, const pp_slice_settings* settings, pp_rock_progress progress,
+                    void* context)
+{
     const pp_joint joints[3] = {joint(0, 0), joint(90, 90), joint(90, 0)};
     pp_rock *rock = NULL;
-    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 3, NULL, NULL, region, &planes, region ? 1 : 0, settings, progress, context, &rock, NULL, 0), PP_OK);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 3, NULL, NULL, region, &planes, region ? 1 : 0, settings, progress,
+                             context, &rock, NULL, 0),
+                 PP_OK);
     return rock;
 }
 
@@ -54,18 +59,26 @@ static void polygons_cut_what_they_reach(void) {
     pp_slice_settings settings = {.threads = 3};
     pp_rock *rock = NULL;
     pp_rock_summary sum;
-    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], corners, NULL, NULL, 0, &settings, NULL, NULL, &rock, why, sizeof why), PP_OK);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], corners, NULL, NULL, 0, &settings, NULL, NULL, &rock,
+                             why, sizeof why),
+                 PP_OK);
     CHECK_STATUS(pp_rock_get_summary(rock, &sum), PP_OK);
     CHECK(sum.blocks == 3 && sum.missing == 0);
     pp_rock_free(rock);
     settings.least_width = 1.01;
-    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, NULL, NULL, NULL, NULL, 0, &settings, NULL, NULL, &rock, why, sizeof why), PP_OK);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, NULL, NULL, NULL, NULL, 0, &settings, NULL, NULL, &rock, why,
+                             sizeof why),
+                 PP_OK);
     CHECK_STATUS(pp_rock_get_summary(rock, &sum), PP_OK);
     CHECK(sum.blocks == 1 && sum.too_small == 2);
     pp_rock_free(rock);
-    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], few, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why), PP_BAD_ROCK);
+    CHECK_STATUS(
+        pp_rock_new(cube[0], SIDES, joints, 2, square[0], few, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why),
+        PP_BAD_ROCK);
     CHECK(strstr(why, "the corners of joint 1 must be three or more") != NULL);
-    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], huge, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why), PP_BAD_INDEX);
+    CHECK_STATUS(pp_rock_new(cube[0], SIDES, joints, 2, square[0], huge, NULL, NULL, 0, NULL, NULL, NULL, &rock, why,
+                             sizeof why),
+                 PP_BAD_INDEX);
     CHECK_STATUS(pp_joint_from_corners(square[0], 2, &joints[1], why, sizeof why), PP_BAD_ROCK);
     CHECK_STATUS(pp_joint_from_corners(NULL, 4, &joints[1], why, sizeof why), PP_NULL_POINTER);
 }
@@ -116,7 +129,8 @@ static void a_grid_of_eight(void) {
             CHECK_NEAR(blocks[i].inertia[axis], 1.0 / 6, 1e-14);
             CHECK_NEAR(blocks[i].inertia[3 + axis], 0, 1e-14);
         }
-        CHECK(blocks[i].face_count == 6 && blocks[i].first_face == 6 * i && blocks[i].parent == i && blocks[i].region == -1);
+        CHECK(blocks[i].face_count == 6 && blocks[i].first_face == 6 * i && blocks[i].parent == i
+              && blocks[i].region == -1);
         for (size_t j = 6 * i; j < 6 * i + 6; j++) {
             CHECK(faces[j].jointed_area == (faces[j].of == PP_FACE_OF_JOINT ? faces[j].area : 0.0));
             CHECK(faces[j].block == i && faces[j].corner_count == 4);
@@ -156,7 +170,8 @@ static void a_tunnel_parts_what_it_meets(void) {
         inside += blocks[i].region == 0 ? blocks[i].volume : 0;
         parents[blocks[i].parent] += blocks[i].volume;
     }
-    for (size_t i = 0; i < face_count; i++) of_region += faces[i].of == PP_FACE_OF_REGION && faces[i].index < 4 && faces[i].region == 0;
+    for (size_t i = 0; i < face_count; i++)
+        of_region += faces[i].of == PP_FACE_OF_REGION && faces[i].index < 4 && faces[i].region == 0;
     CHECK_NEAR(inside, 0.5, 1e-14);
     for (int i = 0; i < 8; i++) CHECK_NEAR(parents[i], 1, 1e-14);
     CHECK(of_region > 16);
@@ -197,8 +212,9 @@ static void bad_values_are_told(void) {
     const size_t one = 1, huge[2] = {SIZE_MAX, SIZE_MAX};
     const double none[4] = {0, 0, 0, 1};
     pp_slice_settings settings = {.most_blocks = 5};
-#define NEW(planes, count, joints, joint_count, region, counts, regions, settings) \
-    pp_rock_new(planes, count, joints, joint_count, NULL, NULL, region, counts, regions, settings, NULL, NULL, &rock, why, sizeof why)
+#define NEW(planes, count, joints, joint_count, region, counts, regions, settings)                                     \
+    pp_rock_new(planes, count, joints, joint_count, NULL, NULL, region, counts, regions, settings, NULL, NULL, &rock,  \
+                why, sizeof why)
     CHECK_STATUS(NEW(cube[0], 5, joints, 3, NULL, NULL, 0, NULL), PP_BAD_ROCK);
     CHECK(strstr(why, "the domain is open") != NULL);
     CHECK_STATUS(NEW(cube[0], SIDES, joints, 3, NULL, NULL, 0, &settings), PP_BAD_ROCK);

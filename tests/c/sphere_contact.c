@@ -43,7 +43,8 @@ static void one_pair(double radius_a, double radius_b, double distance, const wa
     for (int i = 0; i < DIRECTIONS; i++) {
         /* No further out than the pair is large: rounded positions would hide the rounding of s. */
         double size = radius_a + radius_b;
-        pp_pose pose_a = pose_turned(size, -size, 0, 0.8, 0.4, 0.4, 0.2), pose_b = pose_turned(0, 0, 0, 0.5, -0.5, 0.5, 0.5);
+        pp_pose pose_a = pose_turned(size, -size, 0, 0.8, 0.4, 0.4, 0.2),
+                pose_b = pose_turned(0, 0, 0, 0.5, -0.5, 0.5, 0.5);
         walk(pose_a.position, distance, directions[i], pose_b.position);
         for (int j = 0; j < 3; j++) expected.normal[j] = directions[i][j];
         pp_contact contact;

@@ -17,7 +17,8 @@ static void corners_lie_on_the_surface(void) {
     double *vertices = malloc(points * sizeof(double[3])), *normals = malloc(points * sizeof(double[3]));
     uint32_t *triangles = malloc(faces * sizeof(uint32_t[3]));
     if (!vertices || !normals || !triangles) exit(2);
-    CHECK_STATUS(pp_particle_mesh(cube, 1e-2, vertices, normals, points, &points, triangles, faces, &faces, &error), PP_OK);
+    CHECK_STATUS(pp_particle_mesh(cube, 1e-2, vertices, normals, points, &points, triangles, faces, &faces, &error),
+                 PP_OK);
     CHECK_STATUS(pp_particle_bounding_radius(cube, &radius), PP_OK);
     CHECK(error > 0 && error <= 1e-2 * radius);
     for (size_t i = 0; i < points; i++) {
@@ -33,7 +34,8 @@ static void corners_lie_on_the_surface(void) {
     CHECK_STATUS(pp_particle_mesh(cube, 1e-2, vertices, NULL, points, &points, triangles, faces, &faces, NULL), PP_OK);
     double first[3];
     FILL(first);
-    CHECK_STATUS(pp_particle_mesh(cube, 1e-2, first, NULL, 1, &points, triangles, faces, &faces, NULL), PP_BUFFER_TOO_SMALL);
+    CHECK_STATUS(pp_particle_mesh(cube, 1e-2, first, NULL, 1, &points, triangles, faces, &faces, NULL),
+                 PP_BUFFER_TOO_SMALL);
     CHECK_UNTOUCHED(first);
     free(vertices);
     free(normals);

@@ -3,8 +3,8 @@
 
     python3 tests/data/areas.py tests/data/areas.jsonl > answers.jsonl
 
-Every input line keeps what it has and gets "area" anew: the area of the cut of both particles with the plane through the
-contact point at right angles to the normal, exact for the given doubles. Needs mpmath.
+Every input line keeps what it has and gets "area" anew: the area of the cut of both particles with the plane through
+the contact point at right angles to the normal, exact for the given doubles. Needs mpmath.
 
 Where the edge of a cut changes its conic is found for each plane by itself: along the line in which plane and section
 meet, S is convex and piecewise quadratic, and both its roots on the line are such points. Sorted by angle around the

@@ -1,20 +1,24 @@
 #!/usr/bin/env python3
-"""Derivatives of contacts to some 40 digits, by differences and not by the library's way: the lines of derivatives.jsonl.
+"""Derivatives of contacts to some 40 digits, by differences and not by the library's way: the lines of
+derivatives.jsonl.
 
     python3 tests/data/derivatives.py > tests/data/derivatives.jsonl
 
-The first pairs of each family of pairs.jsonl (which says how their solutions were found) are solved again with one number of a pose or a shape
-changed by ±1e-40 of its size: Newton's method on the optimality conditions in arithmetic of 130 digits, with the planes that are active at
-each iterate, from the known solution. No derivative of a solution is used but the quotient of such differences, whose error is 1e-60 or so.
-Small turns about world axes multiply the rotation from the left.
+The first pairs of each family of pairs.jsonl (which says how their solutions were found) are solved again with one
+number of a pose or a shape changed by ±1e-40 of its size: Newton's method on the optimality conditions in arithmetic of
+130 digits, with the planes that are active at each iterate, from the known solution. No derivative of a solution is
+used but the quotient of such differences, whose error is 1e-60 or so. Small turns about world axes multiply the
+rotation from the left.
 
 One object a line: the line of the pair (from 0), the formulation, and
 
-    pose    of each of s, s_b, overlap, normal, point, on_a, on_b (null where it does not apply): rows of 12 numbers, shift and turn of A, of B
-    shape   for some weights {name: number or vector} on them, of the weighted sum: of both bodies {"planes": {index: [a, b, c, d]}, "rkR": [...]}
+    pose    of each of s, s_b, overlap, normal, point, on_a, on_b (null where it does not apply): rows of 12 numbers,
+            shift and turn of A, of B
+    shape   for some weights {name: number or vector} on them, of the weighted sum: of both bodies
+            {"planes": {index: [a, b, c, d]}, "rkR": [...]}
 
-Planes that are not listed have derivatives of 0, being active nowhere. A derivative in k or R at k = 0 or 1, where it is one-sided, or in what is
-not used, is null. Pairs of k = 0 with a free direction are left out. Needs mpmath.
+Planes that are not listed have derivatives of 0, being active nowhere. A derivative in k or R at k = 0 or 1, where it
+is one-sided, or in what is not used, is null. Pairs of k = 0 with a free direction are left out. Needs mpmath.
 """
 import json
 import random
@@ -225,7 +229,8 @@ def usable(body, i):
 def shape_of(formulation, bodies, contact, size, weights):
     """Derivatives of the weighted sums, one for each set of weights."""
     answers = [[] for _ in weights]
-    total = lambda d, w: sum((dot(d[name], [w[name]] if not isinstance(w[name], list) else w[name]) for name in w), mpf(0))
+    total = lambda d, w: sum(
+        (dot(d[name], [w[name]] if not isinstance(w[name], list) else w[name]) for name in w), mpf(0))
     for which, body in enumerate(bodies):
         planes, rkR = [{} for _ in weights], [[None] * 3 for _ in weights]
         for i in sorted(contact.on[which]):

@@ -3,12 +3,15 @@
 
     python3 tests/data/flats.py > tests/data/flats.jsonl
 
-Independent of the library: S is minimised in barycentric coordinates (of a plane: along two vectors at right angles to its
-normal), in arithmetic of 120 digits, by Newton's method whose line search walks from one plane's switch to the next; on a triangle
-also along each edge. Every minimum is checked against the condition g.(v - x) >= 0 for the vertices v.
+Independent of the library: S is minimised in barycentric coordinates (of a plane: along two vectors at right angles to
+its normal), in arithmetic of 120 digits, by Newton's method whose line search walks from one plane's switch to the
+next; on a triangle also along each edge. Every minimum is checked against the condition g.(v - x) >= 0 for the vertices
+v.
 
-One object a line: the particle {n, d, r, k, R}, its pose {pos, q}, "vertices" or "point" and "normal", all as exact doubles, and
-the truth as decimal strings: s, and x, the point of the boundary minus pos (null for k = 0, where it may not be unique). Needs mpmath.
+One object a line: the particle {n, d, r, k, R}, its pose {pos, q}, "vertices" or "point" and "normal", all as exact
+    doubles, and
+the truth as decimal strings: s, and x, the point of the boundary minus pos (null for k = 0, where it may not be
+    unique). Needs mpmath.
 """
 import json
 import random
@@ -168,7 +171,8 @@ def random_direction(rng):
 
 def polyhedron(rng, planes, r, k, long_normals=False):
     """Random planes at 0.4 to 0.8 around the origin, in six directions at least."""
-    normals = [[float(s if i == j else 0) + rng.uniform(-0.2, 0.2) for j in range(3)] for i in range(3) for s in (1, -1)]
+    normals = [[float(s if i == j else 0) + rng.uniform(-0.2, 0.2) for j in range(3)] for i in range(3)
+               for s in (1, -1)]
     normals += [random_direction(rng) for _ in range(planes - 6)]
     n, d = [], []
     for normal in normals:
@@ -250,7 +254,9 @@ def cases(rng):
                 of_plane |= {"point": vertices[0], "normal": normal}
                 side = 1 if sum(a * n for a, n in zip(away, normal)) > 0 else -1
                 length = sum(c * c for c in normal) ** 0.5
-                of_plane["pos"] = [float(v + 3 * side * n / length + rng.uniform(-1, 1)) for v, n in zip(vertices[0], normal)]
+                of_plane["pos"] = [
+                    float(v + 3 * side * n / length + rng.uniform(-1, 1)) for v, n in zip(vertices[0], normal)
+                ]
                 yield moved(of_plane, [-side * n / length for n in normal], wanted)
 
 

@@ -151,8 +151,8 @@ fn contacts_with_boundaries_move_as_differences_say() {
     assert!(met.iter().all(|count| *count >= 3), "{met:?}");
 }
 
-/// Against differences of the wrench, and of its energy: the second derivative in shifts is symmetric, and in turns but for half the
-/// commutator of the turns.
+/// Against differences of the wrench, and of its energy: the second derivative in shifts is symmetric, and in turns but
+/// for half the commutator of the turns.
 #[test]
 fn patches_change_as_differences_say_and_as_an_energy() {
     let (a, b) = (body(0.1, 0.05), body(0.15, 0.02));

@@ -27,7 +27,8 @@ fn faces_of_k_0_leave_the_point_free_and_the_overlap_not() {
         assert!(d.point.iter().chain(&d.normal).chain(&d.point_on_a).all(|v| v.is_finite()));
         turned.push(d.point[(0, 4)].abs());
     }
-    // Turned alike by any angle: at the contact point the overlap grows with the motion along the normal, whatever the point does.
+    // Turned alike by any angle: at the contact point the overlap grows with the motion along the normal, whatever the
+    // point does.
     for seed in 0..40 {
         let mut chance = crate::properties::scattered(7 * seed);
         let lower = Pose::new([0.0; 3], [chance(), chance(), chance(), chance()]).unwrap();

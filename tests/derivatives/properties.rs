@@ -1,4 +1,5 @@
-//! What holds for all derivatives: forward and reverse agree, and a motion of both bodies together moves the contact with them.
+//! What holds for all derivatives: forward and reverse agree, and a motion of both bodies together moves the contact
+//! with them.
 
 use crate::support::pairs;
 use nalgebra::{Matrix3, Vector3};

@@ -117,8 +117,9 @@ fn pose_errors(found: &ContactDerivatives, truth: &Poses, size: f64) -> Vec<(&'s
     errors
 }
 
-/// Largest errors of normals, offsets, r and R, with lengths in units of the size, beside the largest of all of them; and that of k beside
-/// itself or the others. What is less than `least` counts as that: where nothing changes, differences are noise.
+/// Largest errors of normals, offsets, r and R, with lengths in units of the size, beside the largest of all of them;
+/// and that of k beside itself or the others. What is less than `least` counts as that: where nothing changes,
+/// differences are noise.
 fn shape_errors(found: &ShapeGradient, truth: &BodyGradient, size: f64, least: f64) -> Vec<(&'static str, f64)> {
     let mut errors = [("n", 0.0_f64), ("d", 0.0), ("r", 0.0), ("k", 0.0), ("R", 0.0)];
     let mut most = least;

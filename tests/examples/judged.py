@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The examples and studies as they are tried, and what each must have reached: pairs (text, whether it holds); a text names what was found."""
+"""The examples and studies as they are tried, and what each must have reached: pairs (text, whether it holds); a text
+names what was found.
+"""
 import csv
 import dataclasses
 import json
@@ -113,7 +115,8 @@ def classics(outcome):
     def first(name, key):
         return cases[name]["rows"][0][key]
 
-    # Published: Milankovitch's arch of few stones is a little thinner; Goodman & Bray; Housner for b/h = 1/4; sums of 1/i.
+    # Published: Milankovitch's arch of few stones is a little thinner; Goodman & Bray; Housner for b/h = 1/4; sums of
+    # 1/i.
     yield f"closed form of the arch: {first('arch', 'closed_form')}", 0.1060 < first("arch", "closed_form") < 0.1075
     yield f"closed form of the toppling slope: {first('toppling', 'closed_form')}", abs(first("toppling", "closed_form") - 38.15) < 0.005
     yield "closed form of the impact", abs(cases["rocking"]["rows"][-1]["closed_form"] - (1.0 - 1.5 / 17.0)) < 1e-12

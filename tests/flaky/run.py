@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Runs suites again and again, each round in the next of the surroundings below: what fails now and then, or on some machines?
+"""Runs suites again and again, each round in the next of the surroundings below: what fails on some machines only?
 
     tests/flaky/run.py [--rounds N] [--seed S] [--only WORDS ...] [SUITE ...]        (make test-flaky)
 
 --only: those surroundings whose names hold one of these words.
-SUITE: names of stages of scripts/test.py, by default yade, lammps and ranks; they must have been built (make test STAGE=...). Results, kept after
-Ctrl-C: out/flaky/summary.json, a row for each run with its surroundings, and the whole output of each run that failed.
+SUITE: names of stages of scripts/test.py, by default yade, lammps and ranks; what they need is built first. Results,
+kept after Ctrl-C: out/flaky/summary.json, a row for each run with its surroundings, and the whole output of each that
+failed.
 """
 import argparse
 import dataclasses
@@ -64,10 +65,12 @@ def surroundings():
 
 def prepare():
     """The locale, and the clone with what its suites need."""
-    if LOCALE.lower().replace("-", "") not in subprocess.run(["locale", "-a"], text=True, stdout=subprocess.PIPE).stdout.lower():
+    if LOCALE.lower().replace("-", "") not in subprocess.run(["locale", "-a"], text=True,
+                                                             stdout=subprocess.PIPE).stdout.lower():
         if not shutil.which("localedef") or not Path("/usr/share/i18n/locales/de_DE").exists():
             subprocess.run(["apt-get", "-qq", "install", "--yes", "locales"], check=False, stdout=subprocess.DEVNULL)
-        if subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", LOCALE], check=False, stdout=subprocess.DEVNULL).returncode:
+        if subprocess.run(["localedef", "-i", "de_DE", "-f", "UTF-8", LOCALE], check=False,
+                          stdout=subprocess.DEVNULL).returncode:
             print(f"the locale {LOCALE} cannot be made here: its rounds run without it")
     # What was built in it before stays.
     if not (CLONE / ".git").exists():
@@ -79,16 +82,23 @@ def prepare():
 
 
 def build(names):
-    """What the suites need in the clone; False if a build failed."""
+    """What the suites need, here and in the clone; False if a build failed."""
     needs = sorted({need for stage in stages.STAGES if stage.name in names for need in stage.needs})
-    environment = {key: value for key, value in os.environ.items() if key not in ("CARGO_TARGET_DIR", "MAKEFLAGS", "MFLAGS", "MAKELEVEL")}
-    return subprocess.run([str(CLONE / "scripts" / "test.py"), *needs], env=environment).returncode == 0
+    inherited = ("CARGO_TARGET_DIR", "MAKEFLAGS", "MFLAGS", "MAKELEVEL")
+    environment = {key: value for key, value in os.environ.items() if key not in inherited}
+    return all(
+        subprocess.run([str(top / "scripts" / "test.py"), *needs], env=environment).returncode == 0
+        for top in (TOP, CLONE))
 
 
 def start(command, top, around, shuffle, log):
-    environment = {key: value for key, value in {**os.environ, "SHUFFLE": str(shuffle), **around.environment}.items() if value is not None}
+    environment = {
+        key: value
+        for key, value in {**os.environ, "SHUFFLE": str(shuffle), **around.environment}.items() if value is not None
+    }
     environment.pop("CARGO_TARGET_DIR", None)
-    return subprocess.Popen([*around.before, *command], cwd=top, env=environment, umask=around.umask, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
+    return subprocess.Popen([*around.before, *command], cwd=top, env=environment, umask=around.umask,
+                            stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT)
 
 
 def run(stage, around, shuffle):
@@ -116,7 +126,10 @@ def write(rows, names, seed):
     for name in names:
         of_suite = [row for row in rows if row["suite"] == name]
         failures = sum(row["failed"] > 0 for row in of_suite)
-        targets.append({"name": f"{name}: runs that failed, of {len(of_suite)}", "sense": "<=", "target": 0, "measured": failures, "met": failures == 0})
+        targets.append({
+            "name": f"{name}: runs that failed, of {len(of_suite)}", "sense": "<=", "target": 0, "measured": failures,
+            "met": failures == 0
+        })
     write_summary(OUT / "summary.json", {"seed": seed, "targets": targets, "runs": rows})
     return targets
 
@@ -124,8 +137,10 @@ def write(rows, names, seed):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--rounds", type=int, default=20)
-    arguments.add_argument("--seed", type=int, default=random.randrange(2**31), help="of the order of scripts; drawn if it is not given")
-    arguments.add_argument("--only", action="append", default=[], metavar="WORDS", help="surroundings whose names hold these words")
+    arguments.add_argument("--seed", type=int, default=random.randrange(2**31),
+                           help="of the order of scripts; drawn if it is not given")
+    arguments.add_argument("--only", action="append", default=[], metavar="WORDS",
+                           help="surroundings whose names hold these words")
     arguments.add_argument("suites", nargs="*", default=["yade", "lammps", "ranks"], metavar="SUITE")
     options = arguments.parse_args()
     known = {stage.name: stage for stage in stages.STAGES if stage.suite}
@@ -145,16 +160,22 @@ def main():
         sys.exit(f"another run works in {OUT}: wait for it")
     prepare()
     if not build(options.suites):
-        sys.exit("the second clone cannot be built: what failed stands above.")
-    print(f"{options.rounds} rounds of {', '.join(options.suites)}; {jobs()} processes at once; seed {options.seed}", flush=True)
+        sys.exit("what the suites need cannot be built: what failed stands above.")
+    print(f"{options.rounds} rounds of {', '.join(options.suites)}; {jobs()} processes at once; seed {options.seed}",
+          flush=True)
     rows = []
     try:
         for number in range(options.rounds):
             for name in options.suites:
                 here = around[number % len(around)]
                 passed, failed, seconds, said = run(known[name], here, options.seed + number)
-                rows.append({"round": number + 1, "suite": name, "surroundings": here.name, "passed": passed, "failed": failed, "seconds": round(seconds, 1)})
-                print(f"{'FAIL' if failed else 'ok  '} {number + 1:3} {name:8} {passed:6} passed {failed:3} failed {seconds:6.1f} s   {here.name}", flush=True)
+                rows.append({
+                    "round": number + 1, "suite": name, "surroundings": here.name, "passed": passed, "failed": failed,
+                    "seconds": round(seconds, 1)
+                })
+                print(
+                    f"{'FAIL' if failed else 'ok  '} {number + 1:3} {name:8} {passed:6} passed {failed:3} failed {seconds:6.1f} s   {here.name}",
+                    flush=True)
                 if failed:
                     (OUT / f"failed-{number + 1}-{name}.log").write_text(said)
                 write(rows, options.suites, options.seed)

@@ -6,8 +6,8 @@ use potential_particles::{
     Feature, FlatContact, Kind, Particle, Pose, Settings, Wall, contact_with_plane, contact_with_triangle,
 };
 
-/// The triangles of a floor of 4 × 4 squares of side 0.5 about the origin, each cut along a diagonal, and with vertices in
-/// any order.
+/// The triangles of a floor of 4 × 4 squares of side 0.5 about the origin, each cut along a diagonal, and with vertices
+/// in any order.
 fn floor() -> Vec<[[f64; 3]; 3]> {
     let at = |i: i32, j: i32| [0.5 * f64::from(i), 0.5 * f64::from(j), 0.0];
     let squares = (-2..2).flat_map(|i| (-2..2).map(move |j| (i, j)));

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Checks that the table of constants in docs/theory.md and the sources agree.
 
-Every numeric constant of the folders CORE must have a row, every row a constant of its file, and both the same value. Of the formulas
-below the table, each name must be a function of its file. In a value ε, u and U are the units of rounding (section 4.1), "to" stands between the
-ends of a range.
+Every numeric constant of the folders CORE must have a row, every row a constant of its file, and both the same value.
+Of the formulas below the table, each name must be a function of its file. In a value ε, u and U are the units of
+rounding (section 4.1), "to" stands between the ends of a range.
 """
 import math
 import re
@@ -31,7 +31,8 @@ def constants(path):
     """Name to list of numbers; a constant of several types has that of each."""
     found = {}
     for name, value in CONST.findall(source(path)):
-        value = value.replace("f64::EPSILON", "EPSILON").replace("DoubleDouble::UNIT", "UNIT_OF_WIDE").replace("[", "(").replace("]", ")")
+        value = value.replace("f64::EPSILON", "EPSILON").replace("DoubleDouble::UNIT",
+                                                                 "UNIT_OF_WIDE").replace("[", "(").replace("]", ")")
         value = value.replace("std::f64::consts::FRAC_PI_2", "HALF_PI")
         known = {"EPSILON": EPSILON, "UNIT_OF_WIDE": UNITS["U"], "HALF_PI": math.pi / 2, "MAX_PLANES": MAX_PLANES}
         known.update({name: values[0] for name, values in found.items()})
@@ -62,7 +63,8 @@ def check_row(names, path, value):
         return f"no constant {missing}"
     given = [number(part) for part in re.split(r", | to |; ", value)]
     actual = [number for name in names for number in known[name]]
-    same = len(given) == len(actual) and all(math.isclose(x, y, rel_tol=1e-12, abs_tol=0) for x, y in zip(given, actual))
+    same = len(given) == len(actual) and all(
+        math.isclose(x, y, rel_tol=1e-12, abs_tol=0) for x, y in zip(given, actual))
     return None if same else f"{value} is not {actual}"
 
 

@@ -7,7 +7,9 @@ GLOSSARY = Path(__file__).resolve().parents[2] / "docs/glossary.md"
 
 
 def forbidden():
-    """(phrase, what to say, pattern) of each row. A phrase matches whole words, also capitalised, across the end of a line."""
+    """(phrase, what to say, pattern) of each row. A phrase matches whole words, also capitalised, across the end of a
+    line.
+    """
     table = GLOSSARY.read_text().split("\n## Words not to use\n")[1].split("\n## ")[0]
     found = []
     for row in table.splitlines():

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Checks every link of the guide as a site that stays within it: the file is there, and what is named after # too. And those of
-every page of the repository that is read as it stands.
+"""Checks every link of the guide as a site that stays within it: the file is there, and what is named after # too. And
+those of every page of the repository that is read as it stands.
 
     tests/guide/links.py FOLDER
 

@@ -4,10 +4,11 @@
 
     tests/guide/run.py [PAGE ...]
 
-Python blocks of a page run one after the other in one YADE, C blocks are compiled and run, cmake blocks build an example against an
-installation in a folder of its own. Of a shell block each "make" must be a target and each script must be there. Rust blocks are
-doctests of the library; here it is checked that their page is one. Python blocks of docs/wheel.md, docs/derivatives.md and
-docs/equilibrium.md run in the tests of the wheel. Other languages, and blocks that name none, fail.
+Python blocks of a page run one after the other in one YADE, C blocks are compiled and run, cmake blocks build an
+example against an installation in a folder of its own. Of a shell block each "make" must be a target and each script
+must be there. Rust blocks are doctests of the library; here it is checked that their page is one. Python blocks of
+docs/wheel.md, docs/derivatives.md and docs/equilibrium.md run in the tests of the wheel. Other languages, and blocks
+that name none, fail.
 """
 import os
 import shutil
@@ -43,8 +44,8 @@ C_AROUND = "#include <potential_particles.h>\n#include <stdio.h>\nint main(void)
 def call(command, folder, **more):
     """None if the command ends well, else what it said."""
     try:
-        done = subprocess.run(command, cwd=folder, text=True, timeout=SECONDS, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                              stderr=subprocess.STDOUT, **more)
+        done = subprocess.run(command, cwd=folder, text=True, timeout=SECONDS, stdin=subprocess.DEVNULL,
+                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, **more)
     except subprocess.TimeoutExpired as late:
         return f"{late.stdout or ''}\nstill running after {SECONDS} s"
     return None if done.returncode == 0 else done.stdout
@@ -60,8 +61,10 @@ def run_python(page_blocks, scratch):
 def run_c(block, scratch):
     source = block.code if "int main(" in block.code else C_AROUND % (block.before + block.code)
     Path(scratch, "block.c").write_text(source)
-    return call(["cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "block.c", f"-I{TOP / 'include'}", f"-L{RELEASE}", "-lpotential_particles",
-                 f"-Wl,-rpath,{RELEASE}", "-lm", "-o", "block"], scratch) or call(["./block"], scratch)
+    return call([
+        "cc", "-std=c11", "-Wall", "-Wextra", "-Werror", "block.c", f"-I{TOP / 'include'}", f"-L{RELEASE}",
+        "-lpotential_particles", f"-Wl,-rpath,{RELEASE}", "-lm", "-o", "block"
+    ], scratch) or call(["./block"], scratch)
 
 
 def run_cmake(block, scratch):
@@ -107,12 +110,15 @@ def run_block(block):
     if block.tested_by:
         return tested_elsewhere(block)
     with tempfile.TemporaryDirectory() as scratch:
-        return {"c": lambda: run_c(block, scratch), "cmake": lambda: run_cmake(block, scratch), "sh": lambda: check_shell(block),
-                "rust": lambda: is_doctest(block)}.get(block.language, lambda: f"language {block.language!r}: not known here")()
+        return {
+            "c": lambda: run_c(block, scratch), "cmake": lambda: run_cmake(block, scratch),
+            "sh": lambda: check_shell(block), "rust": lambda: is_doctest(block)
+        }.get(block.language, lambda: f"language {block.language!r}: not known here")()
 
 
 def main():
-    pages = [Path(one) for one in sys.argv[1:]] or [Path("README.md"), *sorted(path.relative_to(TOP) for path in (TOP / "docs").glob("*.md"))]
+    pages = [Path(one) for one in sys.argv[1:]
+             ] or [Path("README.md"), *sorted(path.relative_to(TOP) for path in (TOP / "docs").glob("*.md"))]
     os.chdir(TOP)
     passed = failed = 0
     for page in pages:
@@ -126,7 +132,11 @@ def main():
                 shutil.copytree(TOP / "examples/data", scratch, dirs_exist_ok=True)
                 results = run_python(scripts, scratch)
         for block in found:
-            said = None if of_wheel and block.language == "python" else results[block.place] if block.place in results else run_block(block)
+            said = (
+                None
+                if of_wheel and block.language == "python"
+                else results[block.place] if block.place in results else run_block(block)
+            )
             passed, failed = passed + (said is None), failed + (said is not None)
             if said is not None:
                 print(f"{block.place}: {block.language or 'a block without a language'} fails\n{said}")

@@ -2,14 +2,17 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Checks that every sentence that docs/troubleshooting.md explains is one that the sources say.
 
-Numbers and "..." stand for what differs from case to case; the parts between them must be found, word by word, in string literals.
+Numbers and "..." stand for what differs from case to case; the parts between them must be found, word by word, in
+string literals.
 """
 import re
 import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-SOURCES = [*(TOP / "src").rglob("*.rs"), *(TOP / "yade-glue/src").rglob("*.[ch]pp"), *(TOP / "yade-glue/python").rglob("*.py")]
+SOURCES = [
+    *(TOP / "src").rglob("*.rs"), *(TOP / "yade-glue/src").rglob("*.[ch]pp"), *(TOP / "yade-glue/python").rglob("*.py")
+]
 # Shorter parts may be found anywhere.
 LEAST = 8
 

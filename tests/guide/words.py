@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Checks the prose of README, CONTRIBUTING, CHANGELOG and the pages under docs/: no word of the glossary's list of words not to use
-(docs/glossary.md), no name of a commit, no line above 120 columns outside tables and code. Counts the words of each page.
+"""Checks the prose of README, CONTRIBUTING, CHANGELOG and the pages under docs/: no word of the glossary's list of
+words not to use (docs/glossary.md), no name of a commit, no line above 120 columns outside tables and code; and that no
+comment of the sources is above 120 columns. Counts the words of each page.
 
     tests/guide/words.py            checks, and fails on a finding or above the limit of words
     tests/guide/words.py --count    words of each page
@@ -19,8 +20,11 @@ PAGES = [TOP / "README.md", TOP / "CONTRIBUTING.md", *sorted((TOP / "docs").glob
 CHANGES = TOP / "CHANGELOG.md"
 COLUMNS, MOST_WORDS = 120, 40_000
 LIMITS = {"README.md": 110, "CHANGELOG.md": 150}
-SOURCES = {".rs": ("src", "tools", "fuzz", "tests"), ".cpp": ("yade-glue", "lammps-glue", "plugin-common"),
-           ".hpp": ("yade-glue", "lammps-glue", "plugin-common"), ".py": ("yade-glue", "python", "lammps-glue", "tests", "studies", "benches")}
+SOURCES = {
+    ".rs": ("src", "python", "tools", "fuzz", "tests", "benches"), ".cpp": ("yade-glue", "lammps-glue", "plugin-common"),
+    ".hpp": ("yade-glue", "lammps-glue", "plugin-common"),
+    ".py": ("yade-glue", "python", "lammps-glue", "tests", "studies", "benches", "examples", "scripts")
+}
 COMMENT = {".rs": r"//.*", ".cpp": r"//.*", ".hpp": r"//.*", ".py": r"#.*"}
 COMMIT = re.compile(r"\b(?=[0-9a-f]*[0-9])(?=[0-9a-f]*[a-f])[0-9a-f]{7}\b")
 
@@ -45,7 +49,8 @@ def findings(path, phrases):
     lines = path.read_text().splitlines()
     for number, line in enumerate(lines, 1):
         code ^= line.startswith("```")
-        if len(line) > COLUMNS and not code and not line.lstrip().startswith("|") and not line.startswith(("    ", "![", "[")):
+        if len(line) > COLUMNS and not code and not line.lstrip().startswith("|") and not line.startswith(
+            ("    ", "![", "[")):
             yield number, f"{len(line)} columns"
     if len(lines) > LIMITS.get(path.name, len(lines)):
         yield len(lines), f"at most {LIMITS[path.name]} lines"
@@ -56,14 +61,28 @@ def count(path):
     return sum(re.search(r"\w", word) is not None for word in path.read_text().split())
 
 
-def of_sources(phrases):
+def comments():
+    """(place, line, comment) of each comment of the sources."""
     for ending, folders in SOURCES.items():
-        for path in sorted(path for folder in folders for path in (TOP / folder).rglob(f"*{ending}") if "build" not in path.parts):
+        for path in sorted(path for folder in folders for path in (TOP / folder).rglob(f"*{ending}")
+                           if "build" not in path.parts):
             for number, line in enumerate(path.read_text(errors="replace").splitlines(), 1):
-                said = re.search(COMMENT[ending], line)
-                for phrase, instead, pattern in phrases if said else ():
-                    if pattern.search(said[0]):
-                        print(f"{path.relative_to(TOP)}:{number}: {phrase!r}: say {instead}")
+                if said := re.search(COMMENT[ending], line):
+                    yield f"{path.relative_to(TOP)}:{number}", line, said[0]
+
+
+def of_sources(phrases):
+    for place, _, comment in comments():
+        for phrase, instead, pattern in phrases:
+            if pattern.search(comment):
+                print(f"{place}: {phrase!r}: say {instead}")
+
+
+def wide_comments():
+    """Where a line of the sources that is a comment is too long; a table of rustdoc may be."""
+    for place, line, comment in comments():
+        if len(line) > COLUMNS and line.strip() == comment and "| " not in comment:
+            yield f"{place}: {len(line)} columns"
 
 
 def main():
@@ -81,6 +100,9 @@ def main():
         for line, said in sorted(findings(path, phrases)):
             failed += 1
             print(f"{path.relative_to(TOP)}:{line}: {said}")
+    for said in wide_comments():
+        failed += 1
+        print(said)
     if sum(words.values()) > MOST_WORDS:
         failed += 1
         print(f"{sum(words.values())} words, at most {MOST_WORDS}")

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The same motion in plain Python, written from the formulas: velocity Verlet, rotation matrices, one contact after the other."""
+"""The same motion in plain Python, written from the formulas: velocity Verlet, rotation matrices, one contact after the
+other.
+"""
 import numpy as np
 from potential_particles_lammps.library import OVERLAPPING, detect, detect_plane, pose
 from potential_particles_lammps.shapes import principal
@@ -8,11 +10,12 @@ from potential_particles_lammps.shapes import principal
 def quaternion(R):
     w = 0.5 * np.sqrt(max(0.0, 1 + np.trace(R)))
     if w > 0.1:
-        return np.array([w, (R[2, 1] - R[1, 2]) / (4 * w), (R[0, 2] - R[2, 0]) / (4 * w), (R[1, 0] - R[0, 1]) / (4 * w)])
-    _, vectors = np.linalg.eigh(np.array([[R[0, 0] - R[1, 1] - R[2, 2], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0], R[2, 1] - R[1, 2]],
-                                          [0, R[1, 1] - R[0, 0] - R[2, 2], R[1, 2] + R[2, 1], R[0, 2] - R[2, 0]],
-                                          [0, 0, R[2, 2] - R[0, 0] - R[1, 1], R[1, 0] - R[0, 1]],
-                                          [0, 0, 0, np.trace(R)]]) / 3, UPLO="U")
+        return np.array(
+            [w, (R[2, 1] - R[1, 2]) / (4 * w), (R[0, 2] - R[2, 0]) / (4 * w), (R[1, 0] - R[0, 1]) / (4 * w)])
+    _, vectors = np.linalg.eigh(
+        np.array([[R[0, 0] - R[1, 1] - R[2, 2], R[0, 1] + R[1, 0], R[0, 2] + R[2, 0], R[2, 1] - R[1, 2]],
+                  [0, R[1, 1] - R[0, 0] - R[2, 2], R[1, 2] + R[2, 1], R[0, 2] - R[2, 0]],
+                  [0, 0, R[2, 2] - R[0, 0] - R[1, 1], R[1, 0] - R[0, 1]], [0, 0, 0, np.trace(R)]]) / 3, UPLO="U")
     x, y, z, w = vectors[:, -1]
     return np.array([w, x, y, z])
 
@@ -62,12 +65,14 @@ class Loop:
                 found = detect(a, poses[i], b, poses[j])
                 if found.kind == OVERLAPPING:
                     seen.add((i, j))
-                    self.touch((i, j), found.overlap, np.array(found.normal), np.array(found.branch_a), np.array(found.branch_b), i, j, None, first)
+                    self.touch((i, j), found.overlap, np.array(found.normal), np.array(found.branch_a),
+                               np.array(found.branch_b), i, j, None, first)
             for p, (point, normal) in enumerate(self.planes):
                 found = detect_plane(self.shapes[self.kind[i]], poses[i], point, normal)
                 if found.kind == OVERLAPPING:
                     seen.add((i, -1 - p))
-                    self.touch((i, -1 - p), found.overlap, np.array(found.normal), np.array(found.branch), None, i, None, self.moving[p], first)
+                    self.touch((i, -1 - p), found.overlap, np.array(found.normal), np.array(found.branch), None, i,
+                               None, self.moving[p], first)
         self.memory = {key: self.memory[key] for key in seen}
         self.ever |= seen
 

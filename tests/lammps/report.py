@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a test that failed says, in ten lines at most: the check, its values, where it stands, and the last words of LAMMPS."""
+"""What a test that failed says, in ten lines at most: the check, its values, where it stands, and the last words of
+LAMMPS.
+"""
 import ast
 import linecache
 import traceback
@@ -37,15 +39,18 @@ def checks(frame, line):
                     told = [f"  check: {shortened(ast.unparse(part))}"]
                     if isinstance(part, ast.Compare):
                         inside = isinstance(part.ops[0], ast.In)
-                        for what, side in (("wanted" if inside else "value", part.left), ("in" if inside else "wanted", part.comparators[-1])):
+                        for what, side in (("wanted" if inside else "value", part.left), ("in" if inside else "wanted",
+                                                                                          part.comparators[-1])):
                             told.append(f"  {what}: {shortened(value_of(side, frame))}")
                     return told
     return []
 
 
 def of_failure(test, raised):
-    walked = [(frame, line) for frame, line in traceback.walk_tb(raised.__traceback__) if Path(frame.f_code.co_filename).parent == HERE]
-    frame, line = next((f for f in reversed(walked) if Path(f[0].f_code.co_filename).name not in ("scene.py", "run.py")), walked[-1])
+    walked = [(frame, line) for frame, line in traceback.walk_tb(raised.__traceback__)
+              if Path(frame.f_code.co_filename).parent == HERE]
+    frame, line = next(
+        (f for f in reversed(walked) if Path(f[0].f_code.co_filename).name not in ("scene.py", "run.py")), walked[-1])
     told = [f"FAILED: {test.__module__}.{test.__name__} ({Path(frame.f_code.co_filename).name}:{line})"]
     if isinstance(raised, AssertionError):
         try:
@@ -56,4 +61,5 @@ def of_failure(test, raised):
         told.append(f"  {type(raised).__name__}: {shortened(raised)}")
     last = [text.strip() for text in scene.last_words().splitlines() if text.strip()]
     errors = [n for n, text in enumerate(last) if text.startswith("ERROR")]
-    return "\n".join(told + [f"  LAMMPS: {shortened(text)}" for text in (last[errors[-1]:][:WORDS] if errors else last[-WORDS:])])
+    return "\n".join(
+        told + [f"  LAMMPS: {shortened(text)}" for text in (last[errors[-1]:][:WORDS] if errors else last[-WORDS:])])

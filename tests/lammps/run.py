@@ -4,8 +4,8 @@
 
     tests/lammps/run.py [--all] [--times] [NAME ...]      (NAME: part of the name of a test)
 
-Without names the tests that are not marked `long`, or, with --all, all. Needs `scripts/lammps_setup.sh`, and cc for one test. The last line is
-'N passed, N failed'; exit status 1 if anything failed. --times: with the processor time of each.
+Without names the tests that are not marked `long`, or, with --all, all. Needs `scripts/lammps_setup.sh`, and cc for one
+test. The last line is 'N passed, N failed'; exit status 1 if anything failed. --times: with the processor time of each.
 """
 import inspect
 import os
@@ -32,10 +32,12 @@ import test_walls
 
 def chosen(arguments):
     names, found = [a for a in arguments if not a.startswith("--")], []
-    for module in (test_patch, test_motion, test_ranks, test_walls, test_seams, test_remembered, test_entered, test_input, test_examples):
+    for module in (test_patch, test_motion, test_ranks, test_walls, test_seams, test_remembered, test_entered,
+                   test_input, test_examples):
         for name, test in inspect.getmembers(module, inspect.isfunction):
             if name.startswith("test_") and test.__module__ == module.__name__:
-                if any(part in name for part in names) or not names and ("--all" in arguments or not hasattr(test, "long")):
+                if any(part in name
+                       for part in names) or not names and ("--all" in arguments or not hasattr(test, "long")):
                     found.append(test)
     return found
 

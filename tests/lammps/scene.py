@@ -17,11 +17,24 @@ DENSITY, STIFFNESS, SHEAR, FRICTION, DT = 2600.0, 1e5, 6e4, 0.4, 1e-4
 
 # What stands in a script in the place of {name}.
 DEFAULTS = {
-    "units": "units si", "atom": "atom_style sphere", "newton": "newton off", "velocities": "comm_modify vel yes", "boundary": "f f f",
+    "units": "units si",
+    "atom": "atom_style sphere",
+    "newton": "newton off",
+    "velocities": "comm_modify vel yes",
+    "boundary": "f f f",
     "shapes": "fix shapes all potential/particle/shapes shapes.txt type 1 pyramid 2600 type 2 cuboid 2600",
-    "style": "pair_style potential/particle carry 0", "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 1", "neighbor": "neighbor 0.02 bin",
-    "modify": "", "walls": "", "gravity": "fix weight all gravity 9.81 vector 0 0 -1", "timestep": f"timestep {DT}", "before": "", "run": "run 200", "after": "",
-    "box": "-1 1 -1 1 -1 1", "processors": "",
+    "style": "pair_style potential/particle carry 0",
+    "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 1",
+    "neighbor": "neighbor 0.02 bin",
+    "modify": "",
+    "walls": "",
+    "gravity": "fix weight all gravity 9.81 vector 0 0 -1",
+    "timestep": f"timestep {DT}",
+    "before": "",
+    "run": "run 200",
+    "after": "",
+    "box": "-1 1 -1 1 -1 1",
+    "processors": "",
 }
 SCRIPT = """{units}
 {atom}
@@ -58,9 +71,13 @@ def shapes(rounded=True):
     across, up = 1 / slope, 0.5 / slope
     normals = [(across, 0, up), (-across, 0, up), (0, across, up), (0, -across, up), (0, 0, -1)]
     offsets = np.array([0.5 * across - below * up] * 4 + [below]) - 0.05
-    pyramid = Particle(np.column_stack([normals, offsets * size]), (0.05 if rounded else 1e-3) * size, 0.02 if rounded else 0.0, size * np.hypot(np.sqrt(0.5), below))
+    pyramid = Particle(np.column_stack([normals, offsets * size]), (0.05 if rounded else 1e-3) * size,
+                       0.02 if rounded else 0.0, size * np.hypot(np.sqrt(0.5), below))
     sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]
-    return {"pyramid": pyramid, "cuboid": polyhedron(sides, [0.06, 0.06, 0.05, 0.05, 0.03, 0.03], 0.004 if rounded else 1e-4)}
+    return {
+        "pyramid": pyramid, "cuboid": polyhedron(sides, [0.06, 0.06, 0.05, 0.05, 0.03, 0.03],
+                                                 0.004 if rounded else 1e-4)
+    }
 
 
 @lru_cache
@@ -75,9 +92,13 @@ def write(folder, bodies, box, rounded=True):
     (folder / "shapes.txt").write_text(shapes_text(rounded))
     low = box.split()
     with open(folder / "scene.data", "w") as file:
-        file.write(f"bodies\n\n{len(bodies)} atoms\n2 atom types\n{low[0]} {low[1]} xlo xhi\n{low[2]} {low[3]} ylo yhi\n{low[4]} {low[5]} zlo zhi\n")
-        file.write("\nAtoms # sphere\n\n" + "".join(f"{i + 1} {b[0]} 0.1 2600 {numbers(b[1])}\n" for i, b in enumerate(bodies)))
-        file.write("\nVelocities\n\n" + "".join(f"{i + 1} {numbers(b[2])} {numbers(b[3])}\n" for i, b in enumerate(bodies)))
+        file.write(
+            f"bodies\n\n{len(bodies)} atoms\n2 atom types\n{low[0]} {low[1]} xlo xhi\n{low[2]} {low[3]} ylo yhi\n{low[4]} {low[5]} zlo zhi\n"
+        )
+        file.write("\nAtoms # sphere\n\n" + "".join(f"{i + 1} {b[0]} 0.1 2600 {numbers(b[1])}\n"
+                                                    for i, b in enumerate(bodies)))
+        file.write("\nVelocities\n\n" + "".join(f"{i + 1} {numbers(b[2])} {numbers(b[3])}\n"
+                                                for i, b in enumerate(bodies)))
         file.write("\norientation\n\n" + "".join(f"{i + 1} {numbers(b[4])}\n" for i, b in enumerate(bodies)))
 
 
@@ -100,10 +121,13 @@ def long(test):
 
 
 def process(folder, command, seconds=SECONDS, **environment):
-    """(exit status, output) of a program in a folder; one that has not ended by then is killed with all that it has started, and the status is None."""
+    """(exit status, output) of a program in a folder; one that has not ended by then is killed with all that it has
+    started, and the status is None.
+    """
     with open(folder / "said.txt", "w+", errors="replace") as out:
-        running = subprocess.Popen(list(map(str, command)), cwd=folder, env={**os.environ, **environment}, stdin=subprocess.DEVNULL, stdout=out, stderr=subprocess.STDOUT,
-                                   start_new_session=True)
+        running = subprocess.Popen(list(map(str, command)), cwd=folder, env={**os.environ,
+                                                                             **environment}, stdin=subprocess.DEVNULL,
+                                   stdout=out, stderr=subprocess.STDOUT, start_new_session=True)
         try:
             status = running.wait(timeout=seconds)
         except subprocess.TimeoutExpired:
@@ -116,7 +140,8 @@ def process(folder, command, seconds=SECONDS, **environment):
                         running.wait(timeout=5)
                     except subprocess.TimeoutExpired:
                         pass
-            # What MPICH leaves where a single rank aborts has its process's number, which a process of another user may get, and could not open.
+            # What MPICH leaves where a single rank aborts has its process's number, which a process of another user may
+            # get, and could not open.
             for left in Path("/dev/shm").glob(f"mpich_shm_{running.pid:x}_*"):
                 left.unlink(missing_ok=True)
         out.seek(0)
@@ -152,7 +177,8 @@ def refused(folder, bodies, ranks=1, environment=None, script=SCRIPT, rounded=Tr
 
 def state(columns):
     """Positions, velocities, angular velocities and quaternions, (n, 13)."""
-    return np.column_stack([columns[c] for c in ["x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"] + QUATERNION])
+    return np.column_stack(
+        [columns[c] for c in ["x", "y", "z", "vx", "vy", "vz", "omegax", "omegay", "omegaz"] + QUATERNION])
 
 
 def thermo(said):
@@ -175,5 +201,6 @@ def random_bodies(count, spacing, seed, low=(0, 0, 0), across=3, speed=0.5):
     for n in range(count):
         place = np.array([n % across, n // across % across, n // across**2]) * spacing + np.array(low)
         q = random.normal(size=4)
-        bodies.append((1 + n % 2, place + random.uniform(-0.005, 0.005, 3), random.uniform(-speed, speed, 3), random.uniform(-3, 3, 3), q / np.linalg.norm(q)))
+        bodies.append((1 + n % 2, place + random.uniform(-0.005, 0.005, 3), random.uniform(-speed, speed, 3),
+                       random.uniform(-3, 3, 3), q / np.linalg.norm(q)))
     return bodies

@@ -13,7 +13,9 @@ def example(name, folder, *variables):
     # Beside each other as there, by relative paths: in scripts LAMMPS splits others at spaces, and knows ASCII alone.
     shutil.copytree(TOP / "examples" / "lammps", folder / "lammps")
     shutil.copytree(TOP / "examples" / "data", folder / "data")
-    status, _ = process(folder, [LAMMPS, 1, "-in", f"lammps/{name}.lmp", "-log", "none", "-var", "here", "lammps", "-var", "out", ".", *variables])
+    status, _ = process(folder, [
+        LAMMPS, 1, "-in", f"lammps/{name}.lmp", "-log", "none", "-var", "here", "lammps", "-var", "out", ".", *variables
+    ])
     assert status == 0
     return list(frames(folder / f"{name}.dump"))
 
@@ -29,7 +31,8 @@ def test_pile_and_its_files(folder):
     mass.Update()
     assert abs(mass.GetVolume() / (20 * shapes["pyramid"].volume) - 1) < 0.02, mass.GetVolume()
     assert write_vtk(folder / "pile.dump", [shapes["pyramid"]], str(folder / "pile")) == 4
-    assert "pile.0000003000.vtp" in (folder / "pile.pvd").read_text() and (folder / "pile.0000003000.vtp").stat().st_size > 10_000
+    assert "pile.0000003000.vtp" in (folder / "pile.pvd").read_text() and (
+        folder / "pile.0000003000.vtp").stat().st_size > 10_000
 
 
 def test_hopper(folder):
@@ -45,5 +48,7 @@ def test_drum(folder):
 def test_wall(folder):
     """The ball breaks bonds of the wall that were all whole, and the wall stays."""
     dumped = example("wall", folder, "-var", "steps", "120", "-log", "wall.log")
-    table = [line.split() for line in (folder / "wall.log").read_text().splitlines() if line.split()[:1] in (["0"], ["120"])]
+    table = [
+        line.split() for line in (folder / "wall.log").read_text().splitlines() if line.split()[:1] in (["0"], ["120"])
+    ]
     assert len(dumped) == 1 and table[0][4] == "117" and int(table[1][4]) < 117 and float(table[1][8]) > 0, table

@@ -6,7 +6,8 @@ import subprocess
 import time
 
 import numpy as np
-from scene import DEFAULTS, FRICTION, LAMMPS, SCRIPT, SHEAR, STIFFNESS, lammps, long, random_bodies, run, shapes, state, thermo, write
+from scene import (DEFAULTS, FRICTION, LAMMPS, SCRIPT, SHEAR, STIFFNESS, lammps, long, random_bodies, run, shapes,
+                   state, thermo, write)
 
 from potential_particles_lammps.pictures import frames
 from potential_particles_lammps.shapes import principal
@@ -16,7 +17,8 @@ FLOOR = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} {FRICTION} 0
 
 def heap(seed=11):
     """24 bodies that slide over x = 0 and y = 0, where two and four ranks have their borders."""
-    return [(b[0], b[1], b[2] + np.array([3.0, 1.2, 0]), b[3], b[4]) for b in random_bodies(24, 0.115, seed=seed, low=(-0.25, -0.2, 0.1))]
+    return [(b[0], b[1], b[2] + np.array([3.0, 1.2, 0]), b[3], b[4])
+            for b in random_bodies(24, 0.115, seed=seed, low=(-0.25, -0.2, 0.1))]
 
 
 def test_ranks_agree(folder):
@@ -32,15 +34,21 @@ def test_ranks_agree(folder):
     for end, table in ends[1:]:
         assert np.abs(end[:, :3] - ends[0][0][:, :3]).max() < 1e-8, np.abs(end - ends[0][0]).max()
         for column in ("PotEng", "f_move", "c_pp[1]", "c_pp[4]", "c_pp[5]"):
-            assert np.allclose(table[column], ends[0][1][column], rtol=1e-6, atol=1e-10), (column, table[column], ends[0][1][column])
+            assert np.allclose(table[column], ends[0][1][column], rtol=1e-6,
+                               atol=1e-10), (column, table[column], ends[0][1][column])
 
 
 @long
 def test_four_ranks(folder):
     """Few steps, since four ranks wait for each other where there are two cores: forces over edges between ranks."""
-    bodies = [(b[0], np.asarray(b[1]) * 0.8, *b[2:]) for b in random_bodies(8, 0.1, seed=6, low=(-0.05, -0.05, -0.05), across=2)]
-    ends = [state(run(folder, bodies, ranks=ranks, processors="processors * * 1", run="run 12")[0][-1][1]) for ranks in (1, 4)]
-    assert np.abs(ends[0] - ends[1])[:, :3].max() < 1e-9 and np.abs(ends[0][:, 3:6] - [b[2] for b in bodies]).max() > 0.05
+    bodies = [(b[0], np.asarray(b[1]) * 0.8, *b[2:])
+              for b in random_bodies(8, 0.1, seed=6, low=(-0.05, -0.05, -0.05), across=2)]
+    ends = [
+        state(run(folder, bodies, ranks=ranks, processors="processors * * 1", run="run 12")[0][-1][1])
+        for ranks in (1, 4)
+    ]
+    assert np.abs(ends[0] - ends[1])[:, :3].max() < 1e-9 and np.abs(ends[0][:, 3:6] - [b[2]
+                                                                                       for b in bodies]).max() > 0.05
 
 
 def test_periodic(folder):
@@ -74,10 +82,13 @@ run 150
 
 
 def test_restart_in_the_middle(folder):
-    """A run that goes on from a file, on as many ranks or more, is the run that was not interrupted: friction, dashpots, energies."""
+    """A run that goes on from a file, on as many ranks or more, is the run that was not interrupted: friction,
+    dashpots, energies.
+    """
     parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3", "boundary": "f f f"}
-    whole, said = run(folder, heap(), run="thermo 10\nrun 300", before="restart 150 half.restart other.restart\n"
-                      "thermo_style custom step ke pe f_move c_pp[1] c_pp[2] c_pp[3] c_pp[4] c_pp[5] f_floor[3] f_floor[4]", **parts)
+    whole, said = run(
+        folder, heap(), run="thermo 10\nrun 300", before="restart 150 half.restart other.restart\n"
+        "thermo_style custom step ke pe f_move c_pp[1] c_pp[2] c_pp[3] c_pp[4] c_pp[5] f_floor[3] f_floor[4]", **parts)
     (folder / "half.restart").exists() or (folder / "other.restart").rename(folder / "half.restart")
     wanted, table = state(whole[-1][1]), thermo(said)
     assert table["c_pp[4]"][0] == 0 and table["c_pp[1]"].max() > 8, table["c_pp[1]"]
@@ -91,14 +102,16 @@ def test_restart_in_the_middle(folder):
         first = np.abs(state(again[0][1]) - state(whole[150][1])).max()
         assert first == 0, first
         for column in ("c_pp[4]", "c_pp[5]", "f_floor[3]", "f_floor[4]"):
-            assert np.isclose(thermo(said)[column][-1], table[column][-1], rtol=1e-8), (column, thermo(said)[column][-1], table[column][-1])
+            assert np.isclose(thermo(said)[column][-1], table[column][-1],
+                              rtol=1e-8), (column, thermo(said)[column][-1], table[column][-1])
 
 
 def test_runs_in_parts(folder):
     """Two runs one after the other are one, also with a restart written by command between and atoms that balance."""
     parts = {"walls": FLOOR, "coefficients": f"pair_coeff * * {STIFFNESS} {SHEAR} {FRICTION} 0.3"}
     whole, _ = run(folder, heap(), run="run 300", **parts)
-    split, _ = run(folder, heap(), ranks=2, run="run 150\nwrite_restart x.restart\nbalance 1.0 shift x 5 1.05\nrun 75\nrun 75 pre no", **parts)
+    split, _ = run(folder, heap(), ranks=2,
+                   run="run 150\nwrite_restart x.restart\nbalance 1.0 shift x 5 1.05\nrun 75\nrun 75 pre no", **parts)
     steps = {step: state(columns) for step, columns in split}
     error = np.abs(steps[300] - state(whole[-1][1]))[:, :3].max()
     assert error < 1e-8, error
@@ -107,9 +120,10 @@ def test_runs_in_parts(folder):
 def test_killed_rank(folder):
     """A rank that is killed ends the run."""
     write(folder, heap(), DEFAULTS["box"])
-    (folder / "in.scene").write_text(SCRIPT.format(**{**DEFAULTS, "walls": FLOOR, "run": "run 100000000", "before": "undump all"}))
-    run_ = subprocess.Popen([LAMMPS, "2", "-in", "in.scene", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
-                            start_new_session=True)
+    (folder / "in.scene").write_text(
+        SCRIPT.format(**{**DEFAULTS, "walls": FLOOR, "run": "run 100000000", "before": "undump all"}))
+    run_ = subprocess.Popen([LAMMPS, "2", "-in", "in.scene", "-log", "none"], cwd=folder, stdin=subprocess.DEVNULL,
+                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
     try:
         ranks, until = [], time.time() + 30
         while len(ranks) < 2 and time.time() < until:
@@ -160,7 +174,9 @@ clear
 
 
 def test_atoms_that_come_during_a_run(folder):
-    """fix deposit: bodies get shape, mass and a random orientation when they come, on one rank and on two; `clear` ends the scene."""
+    """fix deposit: bodies get shape, mass and a random orientation when they come, on one rank and on two; `clear` ends
+    the scene.
+    """
     write(folder, heap(), DEFAULTS["box"])  # for its file of shapes
     shape = principal(shapes()["pyramid"])[0]
     for ranks in (1, 2):
@@ -168,6 +184,7 @@ def test_atoms_that_come_during_a_run(folder):
         assert status == 0
         last = list(frames(folder / "all.dump"))[-1][1]
         assert len(last["id"]) == 29 and (last["z"] > 0).all()
-        assert np.allclose(last["mass"], 2600 * shape.volume, rtol=1e-5) and np.allclose(last["radius"], shape.radius, rtol=1e-5)
+        assert np.allclose(last["mass"], 2600 * shape.volume, rtol=1e-5) and np.allclose(
+            last["radius"], shape.radius, rtol=1e-5)
         q = np.column_stack([last[f"d2_orientation[{n}]"] for n in (1, 2, 3, 4)])
         assert np.abs(np.linalg.norm(q, axis=1) - 1).max() < 1e-5 and np.std(q, axis=0).min() > 0.1

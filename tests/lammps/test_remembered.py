@@ -23,15 +23,19 @@ def resting(kind, x=0.0, depth=2e-4):
 
 
 def test_other_type_on_a_wall(folder):
-    """A body that hovers over a wall and becomes larger between runs touches it at once, as one that had that type from the start; with a type that is smaller it falls on."""
+    """A body that hovers over a wall and becomes larger between runs touches it at once, as one that had that type from
+    the start; with a type that is smaller it falls on.
+    """
     body = [(1, (0, 0, 0.0295), *AT_REST)]
     kind = 2
     before = "thermo_style custom step f_floor[1] f_floor[7]\n"
     whole, told = run(folder, [(kind, *body[0][1:])], walls=PLANE, gravity="", before=before, run="run 200")
-    for between in ("run 5\nset atom 1 type 2\nundump all\nreset_timestep 0\n" + "\n".join(line for line in SCRIPT.splitlines() if line.startswith("dump")) + "\nrun 200",):
+    for between in ("run 5\nset atom 1 type 2\nundump all\nreset_timestep 0\n"
+                    + "\n".join(line for line in SCRIPT.splitlines() if line.startswith("dump")) + "\nrun 200", ):
         dumped, said = run(folder, body, walls=PLANE, gravity="", before=before, run=between)
         assert thermo(said)["f_floor[1]"][0] == 1 == thermo(told)["f_floor[1]"][0]
-        assert np.abs(state(dumped[-1][1]) - state(whole[-1][1])).max() < 1e-9, (state(dumped[-1][1]), state(whole[-1][1]))
+        assert np.abs(state(dumped[-1][1]) - state(whole[-1][1])).max() < 1e-9, (state(dumped[-1][1]),
+                                                                                 state(whole[-1][1]))
 
 
 def test_other_shapes_between_runs(folder):
@@ -40,7 +44,8 @@ def test_other_shapes_between_runs(folder):
     write_shapes(folder / "other.txt", larger)
     again = "unfix shapes\nfix shapes all potential/particle/shapes other.txt type 1 pyramid 2600 type 2 cuboid 2600\nrun 0 {}"
     for after in ("", "pre no"):
-        _, said = run(folder, [(1, (0, 0, 0.0295), *AT_REST)], walls=PLANE, gravity="", before="thermo_style custom step f_floor[1]\n", run="run 5\n" + again.format(after))
+        _, said = run(folder, [(1, (0, 0, 0.0295), *AT_REST)], walls=PLANE, gravity="",
+                      before="thermo_style custom step f_floor[1]\n", run="run 5\n" + again.format(after))
         assert thermo(said)["f_floor[1]"][-1] == 1
 
 
@@ -51,15 +56,19 @@ def test_type_during_a_run(folder):
 
 
 def test_other_shape_of_a_pair(folder):
-    """The spring of friction of a pair is not that of another shape: two bodies begin anew where one becomes another, and in a run from a file with other shapes; with
-    the same shape under another type they go on."""
+    """The spring of friction of a pair is not that of another shape: two bodies begin anew where one becomes another,
+    and in a run from a file with other shapes; with the same shape under another type they go on.
+    """
     bodies = [(2, (0, 0, 0), *AT_REST), (2, (0.001, 0, 0.0595), (0.01, 0, 0), *AT_REST[1:])]
     held = "group held id 1\nunfix move\ngroup free id 2\nfix move free nve/potential/particle"
-    script = SCRIPT.replace("{shapes}", "{shapes}").replace("d2_orientation[4]\ndump_modify", "d2_orientation[4] fx fy fz\ndump_modify")
-    parts = dict(gravity=held, script=script, shapes="fix shapes all potential/particle/shapes shapes.txt type 1 {} 2600 type 2 cuboid 2600")
+    script = SCRIPT.replace("{shapes}", "{shapes}").replace("d2_orientation[4]\ndump_modify",
+                                                            "d2_orientation[4] fx fy fz\ndump_modify")
+    parts = dict(gravity=held, script=script,
+                 shapes="fix shapes all potential/particle/shapes shapes.txt type 1 {} 2600 type 2 cuboid 2600")
 
     def across(name):
-        dumped, said = run(folder, bodies, **{**parts, "shapes": parts["shapes"].format(name)}, run="run 20\nset atom 2 type 1\nrun 1")
+        dumped, said = run(folder, bodies, **{**parts, "shapes": parts["shapes"].format(name)},
+                           run="run 20\nset atom 2 type 1\nrun 1")
         return dumped[-1][1]["fx"][1], dumped[20][1]["fx"][1], "begins anew" in " ".join(said.split())
 
     same, before, told = across("cuboid")
@@ -74,9 +83,16 @@ def test_id_of_an_atom_before(folder):
     bodies = [(2, (0, 0, 0), *AT_REST), (2, (0.001, 0, 0.0595), (0.05, 0, 0), *AT_REST[1:])]
     script = SCRIPT.replace("d2_orientation[4]\ndump_modify", "d2_orientation[4] fx fy fz\ndump_modify")
     for ranks in (1, 2):
-        dumped, _ = run(folder, bodies, ranks=ranks, gravity="", script=script,
-                        run="run 30\ngroup gone id 2\ndelete_atoms group gone compress no\ncreate_atoms 2 single 0.001 0 0.0595\nvelocity all set 0 0 0\nrun 1")
-        assert (dumped[-1][1]["id"] == [1, 2]).all() and abs(dumped[-1][1]["fx"][0]) < 0.05 * abs(dumped[30][1]["fx"][0])
+        dumped, _ = run(
+            folder,
+            bodies,
+            ranks=ranks,
+            gravity="",
+            script=script,
+            run="run 30\ngroup gone id 2\ndelete_atoms group gone compress no\ncreate_atoms 2 single 0.001 0 0.0595\nvelocity all set 0 0 0\nrun 1",
+        )
+        assert (dumped[-1][1]["id"] == [1, 2]).all() and abs(
+            dumped[-1][1]["fx"][0]) < 0.05 * abs(dumped[30][1]["fx"][0])
 
 
 def saved(folder, walls, bodies=None, steps=50, **parts):
@@ -84,15 +100,18 @@ def saved(folder, walls, bodies=None, steps=50, **parts):
 
 
 def test_restart_with_another_wall(folder):
-    """Contacts of a restart file are those of its wall: other planes, another mesh, another order, another motion are refused on all ranks; a wall that was at rest may begin to move."""
+    """Contacts of a restart file are those of its wall: other planes, another mesh, another order, another motion are
+    refused on all ranks; a wall that was at rest may begin to move.
+    """
     write_stl(folder / "many.stl", floor(8, 0.5))
     write_stl(folder / "few.stl", floor(1, 0.5))
     write_stl(folder / "turned.stl", floor(8, 0.5)[::-1])
     wall = f"fix floor all wall/potential/particle {WALL} "
     other = "the restart file has a fix of this ID with other planes or triangles"
     saved(folder, wall + "stl many.stl")
-    for now, says in (("stl few.stl", other), ("stl turned.stl", other), ("stl many.stl scale 1.5", other), ("plane 0 0 0 0 0 1", other), ("stl many.stl plane 0 0 -1 0 0 1", other),
-                      ("stl many.stl patch 1e-4", "patch")):
+    for now, says in (("stl few.stl", other), ("stl turned.stl", other), ("stl many.stl scale 1.5", other),
+                      ("plane 0 0 0 0 0 1", other), ("stl many.stl plane 0 0 -1 0 0 1",
+                                                     other), ("stl many.stl patch 1e-4", "patch")):
         said = refused(folder, [resting(2)], ranks=2 if now == "stl few.stl" else 1, script=AGAIN, walls=wall + now)
         assert says in said, now
     run(folder, [resting(2)], script=AGAIN, walls=wall.replace("fix floor", "fix other") + "stl few.stl")
@@ -116,7 +135,9 @@ def test_restart_of_another_version(folder):
 
 
 def test_restart_with_other_shapes(folder):
-    """Contacts with a wall begin anew where the file of shapes is another one; with the same they go on, to the last bit."""
+    """Contacts with a wall begin anew where the file of shapes is another one; with the same they go on, to the last
+    bit.
+    """
     slide = [(2, (0, 0, 0.0298), (0.3, 0, 0), *AT_REST[1:])]
     saved(folder, PLANE, slide)
     whole, _ = run(folder, slide, walls=PLANE, run="run 100")
@@ -124,7 +145,9 @@ def test_restart_with_other_shapes(folder):
     assert (state(again[-1][1]) == state(whole[-1][1])).all()
     write(folder, slide, DEFAULTS["box"])
     write_shapes(folder / "other.txt", {"cuboid": shapes()["pyramid"], "pyramid": shapes()["cuboid"]})
-    parts = {**DEFAULTS, "walls": PLANE, "shapes": DEFAULTS["shapes"].replace("shapes.txt", "other.txt"), "run": "run 50"}
+    parts = {
+        **DEFAULTS, "walls": PLANE, "shapes": DEFAULTS["shapes"].replace("shapes.txt", "other.txt"), "run": "run 50"
+    }
     status, said = lammps(folder, AGAIN.format(**parts))
     assert status == 0
 
@@ -134,48 +157,66 @@ def test_atom_that_leaves_the_group_of_a_wall(folder):
     slide = [(2, (0, 0, 0.0295), (0.05, 0, 0), *AT_REST[1:])]
     on = "group on id 1\nfix floor on wall/potential/particle " + WALL + " plane 0 0 0 0 0 1"
     script = SCRIPT.replace("d2_orientation[4]\ndump_modify", "d2_orientation[4] fx fy fz\ndump_modify")
-    dumped, _ = run(folder, slide, walls=on, script=script, gravity="", run="run 20\ngroup on clear\nrun 1\ngroup on id 1\nvelocity all set 0 0 0\nrun 0")
-    assert abs(dumped[20][1]["fx"][0]) > 1e-2 and abs(dumped[-1][1]["fx"][0]) < 1e-9, (dumped[20][1]["fx"], dumped[-1][1]["fx"])
+    dumped, _ = run(folder, slide, walls=on, script=script, gravity="",
+                    run="run 20\ngroup on clear\nrun 1\ngroup on id 1\nvelocity all set 0 0 0\nrun 0")
+    assert abs(dumped[20][1]["fx"][0]) > 1e-2 and abs(dumped[-1][1]["fx"][0]) < 1e-9, (dumped[20][1]["fx"],
+                                                                                       dumped[-1][1]["fx"])
 
 
 def test_time_step_that_grows(folder):
     """A time step that becomes too long for a contact is refused, whether before a run or by a fix during it."""
-    for run_, parts in (("run 5\ntimestep 1\nrun 5", {}), ("run 5\ntimestep 1\nrun 5 pre no", {}), ("velocity all set 1e-3 0 0\nfix grow all dt/reset 1 1e-6 1 1 units box\nrun 500", {}),
-                        ("run 5\ntimestep 1\nrun 5 pre no", {"walls": ""})):
+    for run_, parts in (("run 5\ntimestep 1\nrun 5", {}), ("run 5\ntimestep 1\nrun 5 pre no", {}),
+                        ("velocity all set 1e-3 0 0\nfix grow all dt/reset 1 1e-6 1 1 units box\nrun 500",
+                         {}), ("run 5\ntimestep 1\nrun 5 pre no", {"walls": ""})):
         said = refused(folder, [resting(2)], **{"walls": PLANE, "run": run_, **parts})
         assert "unstable above" in said, run_
-    run(folder, [resting(2)], walls=PLANE.replace("1e5", "1"), coefficients="pair_coeff * * 1 1 0.5 0.5", gravity="", run="unfix floor\ntimestep 0.1\nrun 1")
+    run(folder, [resting(2)], walls=PLANE.replace("1e5", "1"), coefficients="pair_coeff * * 1 1 0.5 0.5", gravity="",
+        run="unfix floor\ntimestep 0.1\nrun 1")
 
 
 def test_runs_that_are_refused(folder):
     """rerun, which reads no orientations, and minimize, which turns no bodies."""
-    for command, words in (("rerun all.dump dump x y z", "rerun reads no orientations"), ("minimize 0 0 10 10", "minimize does not turn bodies"),
-                           ("timestep -1e-4\nrun 1", "timestep = -0.0001"), ("run_style respa 2 2\nrun 1", "run_style verlet")):
+    for command, words in (("rerun all.dump dump x y z",
+                            "rerun reads no orientations"), ("minimize 0 0 10 10", "minimize does not turn bodies"),
+                           ("timestep -1e-4\nrun 1", "timestep = -0.0001"), ("run_style respa 2 2\nrun 1",
+                                                                             "run_style verlet")):
         said = refused(folder, [resting(2)], walls=PLANE, run=f"run 5\n{command}")
         assert words in said, command
 
 
 # What changes between runs; how many steps follow.
 CHANGES = (
-    "", "set atom 1 type 2", "displace_atoms all move 0.003 -0.002 -0.004",
+    "",
+    "set atom 1 type 2",
+    "displace_atoms all move 0.003 -0.002 -0.004",
     "\n".join(f"set atom 3 d2_orientation[{i}] {q}" for i, q in enumerate((0.5, -0.5, 0.1, 0.7), 1)),
     "unfix shapes\nfix shapes all potential/particle/shapes other.txt type 1 pyramid 2600 type 2 cuboid 2600",
-    "change_box all x final -1.3 1.2 z scale 1.05 remap units box", "reset_timestep 0", "timestep 5e-5", "neighbor 0.003 bin",
-    "group on id 1 3 5", "group on id 2 4 6", "set atom 2 type 1\nset atom 5 type 2", "neighbor 0.03 bin\nreset_timestep 1000",
-    "displace_atoms all move 0.3 0.2 0.001 units box", "group off id 2\ngroup on subtract all off", "group on id 2 3",
+    "change_box all x final -1.3 1.2 z scale 1.05 remap units box",
+    "reset_timestep 0",
+    "timestep 5e-5",
+    "neighbor 0.003 bin",
+    "group on id 1 3 5",
+    "group on id 2 4 6",
+    "set atom 2 type 1\nset atom 5 type 2",
+    "neighbor 0.03 bin\nreset_timestep 1000",
+    "displace_atoms all move 0.3 0.2 0.001 units box",
+    "group off id 2\ngroup on subtract all off",
+    "group on id 2 3",
 )
 STEPS = 6
 
 
 def test_what_wakes_at_a_wall(folder):
-    """Whatever changes between runs (type, shape, place, orientation, box, time, time step, skin, group), a wall of planes and
-    triangles that moves pushes each body as one that meets the bodies there for the first time."""
+    """Whatever changes between runs (type, shape, place, orientation, box, time, time step, skin, group), a wall of
+    planes and triangles that moves pushes each body as one that meets the bodies there for the first time.
+    """
     random, speed = np.random.default_rng(5), 0.4
     bodies = []
     for n in range(6):
         q = random.normal(size=4)
         place = 0.3 * (n % 3) - 0.4, 0.3 * (n // 3) - 0.2, random.uniform(0.035, 0.05)
-        bodies.append((1 + n % 2, place, random.uniform(-0.5, 0.5, 3), random.uniform(-20, 20, 3), q / np.linalg.norm(q)))
+        bodies.append((1 + n % 2, place, random.uniform(-0.5, 0.5, 3), random.uniform(-20, 20,
+                                                                                      3), q / np.linalg.norm(q)))
     write_stl(folder / "floor.stl", floor(14, 1.1))
     write_shapes(folder / "other.txt", {"pyramid": shapes()["cuboid"], "cuboid": shapes()["pyramid"]})
     wall = f"fix wall on wall/potential/particle {STIFFNESS} {SHEAR} 0 1 stl floor.stl plane -0.45 0 0 1 0 0.1 flat 1e-4"

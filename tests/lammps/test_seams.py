@@ -32,14 +32,15 @@ def shapes_in(path):
 
 def overlaps(particle, its_pose, triangle):
     found, corners = FlatContact(), np.ascontiguousarray(triangle, float)
-    check(library().pp_contact_triangle(particle.handle, ctypes.byref(its_pose), ctypes.c_void_p(corners.ctypes.data), None, None,
-                                        ctypes.byref(found)))
+    check(library().pp_contact_triangle(particle.handle, ctypes.byref(its_pose), ctypes.c_void_p(corners.ctypes.data),
+                                        None, None, ctypes.byref(found)))
     return found.kind == OVERLAPPING
 
 
 def test_same_seams_in_yade(folder):
-    """Bodies over 10,000 pairs of triangles that share an edge or a corner: YADE and LAMMPS push each of them alike, and each that
-    touches has a contact; on a plane, a ridge and a cone exactly one."""
+    """Bodies over 10,000 pairs of triangles that share an edge or a corner: YADE and LAMMPS push each of them alike,
+    and each that touches has a contact; on a plane, a ridge and a cone exactly one.
+    """
     if not YADE.exists():
         print("not tried: the YADE plugin is not built (make build)")
         return
@@ -68,15 +69,19 @@ def test_same_seams_in_yade(folder):
     assert thermo(said)["f_facets[1]"][0] == yade["contacts"].sum()
     sizes = np.linalg.norm(yade["pushes"][:, :3], axis=1)
     differ = np.linalg.norm(pushes - yade["pushes"], axis=1) > 1e-9 * np.maximum(sizes, 1e-3 * sizes.max())
-    assert not differ.any(), (np.flatnonzero(differ), yade["kinds"][differ][:5], pushes[differ][:3], yade["pushes"][differ][:3])
+    assert not differ.any(), (np.flatnonzero(differ), yade["kinds"][differ][:5], pushes[differ][:3],
+                              yade["pushes"][differ][:3])
 
 
 def test_slides_as_over_one_slab(folder):
-    """A body that is pushed over a floor of triangles, at an angle to its seams: it is pressed as by a plane, on patches to 1e-9,
-    and in a point without a jump at any seam."""
+    """A body that is pushed over a floor of triangles, at an angle to its seams: it is pressed as by a plane, on
+    patches to 1e-9, and in a point without a jump at any seam.
+    """
     write_stl(folder / "floor.stl", floor(16, 0.5))
-    parts = {"gravity": "", "before": "thermo_style one\nunfix move\nfix drive all move linear 1.7 0.9 0", "run": "run 100",
-             "script": SCRIPT.replace("omegax omegay omegaz", "omegax omegay omegaz " + " ".join(PUSHES))}
+    parts = {
+        "gravity": "", "before": "thermo_style one\nunfix move\nfix drive all move linear 1.7 0.9 0", "run": "run 100",
+        "script": SCRIPT.replace("omegax omegay omegaz", "omegax omegay omegaz " + " ".join(PUSHES))
+    }
     for kind, tilt, height in ((1, 0.0, 0.0248), (2, 0.3, 0.0415), (2, 0.0, 0.0298)):
         body = [(kind, (-0.3, -0.17, height), (1.7, 0.9, 0), (0, 0, 0), (np.cos(tilt / 2), np.sin(tilt / 2), 0, 0))]
         for stiffness, words in ((STIFFNESS, "flat 1e-4"), (1e9, "patch 1e-11")):
@@ -87,4 +92,5 @@ def test_slides_as_over_one_slab(folder):
                 pushes += [[columns[name][0] for name in PUSHES] for _, columns in dumped]
             error = np.abs(np.subtract(mesh, plane)) / np.array(plane)[:, 2:3]
             assert len(error) == 101 and np.array(plane)[:, 2].min() > 10
-            assert error[:, :3].max() < 1e-9 and error[:, 3:].max() < 1e-9 * shapes()["cuboid"].radius, (kind, tilt, words)
+            assert error[:, :3].max() < 1e-9 and error[:, 3:].max() < 1e-9 * shapes()["cuboid"].radius, (kind, tilt,
+                                                                                                         words)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""In YADE: blocks with joints, carried over by to_lammps, and where they are after some steps: yade -x yade_patch_scene.py FOLDER HALVINGS."""
+"""In YADE: blocks with joints, carried over by to_lammps, and where they are after some steps: yade -x
+yade_patch_scene.py FOLDER HALVINGS.
+"""
 import math
 import sys
 
@@ -11,20 +13,26 @@ from yade import O
 
 folder, halvings = sys.argv[-2], int(sys.argv[-1])
 DT, STEPS = 2e-5 / 2**halvings, 250 * 2**halvings
-O.materials.append(yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=math.atan(0.4), restitution=0.4, density=2600, cohesion=2e4,
-                                      tensileStrength=3e4, residualFrictionAngle=math.atan(0.3), residualCohesion=1e3))
+O.materials.append(
+    yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=math.atan(0.4), restitution=0.4,
+                       density=2600, cohesion=2e4, tensileStrength=3e4, residualFrictionAngle=math.atan(0.3),
+                       residualCohesion=1e3))
 brick = shapes.cuboid((0.12, 0.1, 0.06), rounding=0.004, k=0.02)
 O.bodies.append(yade.utils.wall(0, axis=2))
 # Two that are bonded, one that slides on them, and one that hits their end with an edge.
-for position, velocity, turn in (((0, 0, 0.03), (0.3, 0, 0), 0), ((0.12 - 1e-6, 0, 0.03), (0.3, 0, 0), 0), ((0.05, 0.01, 0.0905), (-0.4, 0.2, -0.3), 0.2),
-                                 ((0.2605, 0.02, 0.035), (-0.6, 0.1, -0.2), 0.6)):
+for position, velocity, turn in (((0, 0, 0.03), (0.3, 0, 0), 0), ((0.12 - 1e-6, 0, 0.03), (0.3, 0, 0), 0),
+                                 ((0.05, 0.01, 0.0905), (-0.4, 0.2, -0.3), 0.2), ((0.2605, 0.02, 0.035), (-0.6, 0.1,
+                                                                                                          -0.2), 0.6)):
     body = potential_particles.body(brick, position=position, velocity=velocity)
     body.state.ori = yade.Quaternion((0, 0, 1), turn)
     O.bodies.append(body)
 O.engines = [
-    yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb()]),
-    yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, patchTolerance=1e-7), yade.Ig2_Wall_ConicPP_ScGeom(patch=True, patchTolerance=1e-7)],
-                         [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(bonds=True)], [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
+    yade.ForceResetter(),
+    yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb()]),
+    yade.InteractionLoop([
+        yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, patchTolerance=1e-7),
+        yade.Ig2_Wall_ConicPP_ScGeom(patch=True, patchTolerance=1e-7)
+    ], [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(bonds=True)], [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
     yade.NewtonIntegrator(damping=0, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
 O.dt = DT

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""In YADE: a scene for LAMMPS by to_lammps, and where its bodies are after some steps: yade -x yade_scene.py FOLDER HALVINGS."""
+"""In YADE: a scene for LAMMPS by to_lammps, and where its bodies are after some steps: yade -x yade_scene.py FOLDER
+HALVINGS.
+"""
 import math
 import sys
 
@@ -16,7 +18,8 @@ brick = shapes.cuboid((0.12, 0.1, 0.06), rounding=0.004, k=0.02)
 O.bodies.append(yade.utils.wall(0, axis=2))
 O.bodies.append(potential_particles.body(brick, position=(0, 0, 0.0301), velocity=(0.6, 0.1, -0.05)))
 O.bodies.append(potential_particles.body(brick, position=(0.01, 0.005, 0.0905), velocity=(-0.5, 0.2, -0.1)))
-physics = yade.Ip2_FrictMat_FrictMat_FrictPhys(kn=yade.MatchMaker(algo="val", val=KN), ks=yade.MatchMaker(algo="val", val=KS),
+physics = yade.Ip2_FrictMat_FrictMat_FrictPhys(kn=yade.MatchMaker(algo="val",
+                                                                  val=KN), ks=yade.MatchMaker(algo="val", val=KS),
                                                frictAngle=yade.MatchMaker(algo="val", val=math.atan(MU)))
 O.engines = [
     yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb()]),

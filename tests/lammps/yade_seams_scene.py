@@ -59,11 +59,16 @@ first = len(O.bodies)
 for shape, position, turn in placed:
     O.bodies.append(potential_particles.body(shape, position=position, orientation=turn))
 O.engines = [
-    yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Facet_Aabb()]),
-    yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(), yade.Ig2_Facet_ConicPP_ScGeom(flatRegularisation=1e-4)],
-                         [yade.Ip2_FrictMat_FrictMat_FrictPhys(**{name: yade.MatchMaker(algo="val", val=value) for name, value in
-                                                                  (("kn", KN), ("ks", KS), ("frictAngle", math.atan(MU)))})],
-                         [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    yade.ForceResetter(),
+    yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Facet_Aabb()]),
+    yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(),
+                          yade.Ig2_Facet_ConicPP_ScGeom(flatRegularisation=1e-4)], [
+                              yade.Ip2_FrictMat_FrictMat_FrictPhys(
+                                  **{
+                                      name: yade.MatchMaker(algo="val", val=value)
+                                      for name, value in (("kn", KN), ("ks", KS), ("frictAngle", math.atan(MU)))
+                                  })
+                          ], [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
 ]
 O.dt = 1e-6
 potential_particles.to_lammps(folder + "/scene", KN, KS, MU)

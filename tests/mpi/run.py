@@ -4,8 +4,8 @@
 
     tests/mpi/run.py [--long]
 
-Starts scene.py, or with --long the pile of studies/, through scripts/yade_mpi.sh, and judges what they write. The last line is
-'N passed, N failed'; exit status 1 if anything failed.
+Starts scene.py, or with --long the pile of studies/, through scripts/yade_mpi.sh, and judges what they write. The last
+line is 'N passed, N failed'; exit status 1 if anything failed.
 """
 import json
 import os
@@ -56,8 +56,10 @@ def report(folder, name):
 
 
 def same(folder, expected, found):
-    """States of two runs, in sizes and seconds of the scene; it is short enough for rounding not to grow. A contact that comes to another rank is solved
-    anew, with the regularisation of flat faces, which moves a point by up to 1e-10 of the size and is left off while a contact is carried on: spins see it."""
+    """States of two runs, in sizes and seconds of the scene; it is short enough for rounding not to grow. A contact
+    that comes to another rank is solved anew, with the regularisation of flat faces, which moves a point by up to 1e-10
+    of the size and is left off while a contact is carried on: spins see it.
+    """
     first, second = (np.load(folder / f"{name}.npz") for name in (expected, found))
     for what in ("position", "orientation", "velocity", "angular_velocity"):
         difference = float(np.abs(first[what] - second[what]).max())
@@ -73,12 +75,17 @@ def equal_runs(folder):
         name = f"whole{ranks}"
         same(folder, "whole1", name)
         found = report(folder, name)
-        check.true(found["failures"] == [] and found["counters"]["failures"] == 0, f"{name}: failures {found['failures']}")
+        check.true(found["failures"] == [] and found["counters"]["failures"] == 0,
+                   f"{name}: failures {found['failures']}")
         contacts = [sum(part[1] for part in run["parts"]) for run in (serial, found)]
         check.true(contacts[0] == contacts[1] > 20, f"{name}: contacts of one process and of all ranks: {contacts}")
-        check.true(sum(found["counters"]["answers"].values()) == found["counters"]["calls"], f"{name}: answers do not add up to calls")
-        check.true(len(found["full"]) == ranks and all("what was there before is left as it was" in told and stays for told, stays in found["full"]),
-              f"{name}: what each rank says of a full disk, and whether the file stays: {found['full']}")
+        check.true(
+            sum(found["counters"]["answers"].values()) == found["counters"]["calls"],
+            f"{name}: answers do not add up to calls")
+        check.true(
+            len(found["full"]) == ranks
+            and all("what was there before is left as it was" in told and stays for told, stays in found["full"]),
+            f"{name}: what each rank says of a full disk, and whether the file stays: {found['full']}")
     check.true(found["across"] > 20, f"too few contacts across borders for a test of them: {found['across']}")
     # 27 and 9 at the start.
     check.true([part[0] for part in found["parts"]] == [1, 18, 18], f"bodies were not shared out: {found['parts']}")
@@ -100,13 +107,15 @@ def joints(folder):
     for ranks in (2, 3):
         same(folder, "joints1", f"joints{ranks}")
         found = report(folder, f"joints{ranks}")
-        check.true(found["bonds"] == serial["bonds"], f"bonds on {ranks} ranks: {found['bonds']}, on one {serial['bonds']}")
+        check.true(found["bonds"] == serial["bonds"],
+                   f"bonds on {ranks} ranks: {found['bonds']}, on one {serial['bonds']}")
         check.true(found["failures"] == [], f"joints on {ranks} ranks: failures {found['failures']}")
     check.true(found["across"] > 20, f"too few joints across borders for a test of them: {found['across']}")
     for ranks, of in ((1, 3), (3, 1)):
         sound(ranks, "resumed", folder, of, "joints")
         same(folder, "joints1", f"joints_resumed{ranks}_of_{of}")
-        check.true(report(folder, f"joints_resumed{ranks}_of_{of}")["bonds"] == last, f"bonds after a save on {of} ranks")
+        check.true(
+            report(folder, f"joints_resumed{ranks}_of_{of}")["bonds"] == last, f"bonds after a save on {of} ranks")
 
 
 def lonely_workers(folder):
@@ -117,23 +126,28 @@ def lonely_workers(folder):
     for ranks in (1, 3):
         found = report(folder, f"apart{ranks}")
         pairs, walls = (sum(calls[i] for calls in found["calls"]) for i in (0, 1))
-        check.true(found["counters"]["calls"] == pairs + walls and walls > 0, f"counters of {ranks} ranks leave a functor out: {found}")
+        check.true(found["counters"]["calls"] == pairs + walls and walls > 0,
+                   f"counters of {ranks} ranks leave a functor out: {found}")
 
 
 def recorders(folder):
     sound(3, "recorders", folder)
     names = {path.name for path in folder.glob("*own-*.vtp")}
-    check.true(len(names) == 3 and {name[:6] for name in names} == {"rank0.", "rank1.", "rank2."}, f"files of the ranks: {names}")
+    check.true(
+        len(names) == 3 and {name[:6]
+                             for name in names} == {"rank0.", "rank1.", "rank2."}, f"files of the ranks: {names}")
 
 
 def failures(folder):
     for case, words in (("raising", ("rank 1: Traceback", "this worker has had enough")),
                         ("raising_in_step", ("division by zero",))):
         status, text = scene(2, case, folder)
-        check.true(status == 1 and all(word in text for word in words), f"{case} ends with {status}, without {words}:\n{text}")
+        check.true(status == 1 and all(word in text for word in words),
+                   f"{case} ends with {status}, without {words}:\n{text}")
     sound(3, "refusals", folder)
     said = report(folder, "refusals")
-    expected = ("1 bodies cannot be divided between 2 workers", "must be above 0", "body 36 is free to move and on rank 0")
+    expected = ("1 bodies cannot be divided between 2 workers", "must be above 0",
+                "body 36 is free to move and on rank 0")
     check.true(len(said) == 3 and all(words in text for words, text in zip(expected, said)), f"refusals: {said}")
 
 
@@ -143,7 +157,8 @@ def started(case, folder):
         old.unlink()
     process = subprocess.Popen(command(3, HERE / "scene.py", case, folder), env=ENVIRONMENT, text=True,
                                stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               # Tests in the background of a shell would hand on that they ignore it, which no shell can undo.
+                               # Tests in the background of a shell would hand on that they ignore it, which no shell
+                               # can undo.
                                preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
     end = time.monotonic() + SECONDS
     while time.monotonic() < end and len(list(folder.glob("pid*"))) < 3 and process.poll() is None:
@@ -176,21 +191,26 @@ def pile(folder):
     summaries = []
     for ranks in (1, 3):
         out = folder / f"pile{ranks}"
-        status, text = run(ranks, TOP / "studies" / "mpi_pile.py", OUTPUT=str(out), BODIES="30", STEPS="2400", FRAMES="3")
+        status, text = run(ranks, TOP / "studies" / "mpi_pile.py", OUTPUT=str(out), BODIES="30", STEPS="2400",
+                           FRAMES="3")
         check.true(status == 0, f"the pile on {ranks} ranks ends with {status}:\n{text}")
         summary = json.loads((out / "summary.json").read_text())
         check.true(all(row["met"] for row in summary["targets"]), f"the pile on {ranks} ranks: {summary['targets']}")
-        check.true(sorted(path.name for path in out.glob("*.bodies.*.vtp")) == [f"pile.bodies.{step:07d}.vtp" for step in (0, 800, 1600, 2400)],
-              f"frames of {ranks} ranks: {list(out.glob('*.vtp'))}")
+        check.true(
+            sorted(path.name for path in out.glob("*.bodies.*.vtp")) == [
+                f"pile.bodies.{step:07d}.vtp" for step in (0, 800, 1600, 2400)
+            ], f"frames of {ranks} ranks: {list(out.glob('*.vtp'))}")
         check.true((out / "pile.png").stat().st_size > 10_000, "the picture")
         summaries.append(summary)
     one, three = summaries
     for what, tolerance in (("mean_height_m", 0.1), ("contacts", 0.5)):
-        check.true(abs(one[what] - three[what]) < tolerance * one[what], f"{what} of a pile: {one[what]} and {three[what]}")
+        check.true(
+            abs(one[what] - three[what]) < tolerance * one[what], f"{what} of a pile: {one[what]} and {three[what]}")
     status, text = run(3, TOP / "studies" / "mpi_pile.py",
                        OUTPUT=str(folder / "pile3"), BODIES="30", STEPS="2450", FRAMES="0", RESUME="1")
     resumed = json.loads((folder / "pile3" / "summary.json").read_text())
-    check.true(status == 0 and (resumed["first_step"], resumed["steps"]) == (2400, 2450), f"a resumed pile ends with {status}:\n{text}")
+    check.true(status == 0 and (resumed["first_step"], resumed["steps"]) == (2400, 2450),
+               f"a resumed pile ends with {status}:\n{text}")
 
 
 def main():

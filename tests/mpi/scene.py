@@ -2,8 +2,8 @@
 """One run of a small scene on the ranks that mpirun started; tests/mpi/run.py starts it and judges the results.
 
 The case is the first argument, a folder the second. Cubes lie on a floor and on each other, slide against each other in
-three rows, and are pushed together along x: there are contacts across the borders of workers at all times, but too little time passes for
-rounding to grow.
+three rows, and are pushed together along x: there are contacts across the borders of workers at all times, but too
+little time passes for rounding to grow.
 """
 import json
 import os
@@ -29,7 +29,9 @@ def build(gap=0.0, wall=False):
     contact = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False)
     fresh_scene(contact, dt=1e-3, damping=0.1, gravity=(0, 0, -9.81), stiffness=1e6, friction=0.5)
     if wall:
-        engine_of(yade.InteractionLoop).geomDispatcher.functors = [contact, yade.Ig2_Wall_ConicPP_ScGeom(calContactArea=False)]
+        engine_of(yade.InteractionLoop).geomDispatcher.functors = [
+            contact, yade.Ig2_Wall_ConicPP_ScGeom(calContactArea=False)
+        ]
         collider = engine_of(yade.InsertionSortCollider)
         collider.boundDispatcher.functors = collider.boundDispatcher.functors + [yade.Bo1_Wall_Aabb()]
         O.bodies.append(yade.utils.wall(0.0, axis=2))
@@ -48,10 +50,12 @@ def build(gap=0.0, wall=False):
 
 
 def build_joints():
-    """4 x 3 x 3 cubes on a fixed row of others, bonded where they touch, that are pulled apart along x and pressed down: some bonds break."""
+    """4 x 3 x 3 cubes on a fixed row of others, bonded where they touch, that are pulled apart along x and pressed
+    down: some bonds break.
+    """
     O.reset()
-    material = yade.ConicJointMat(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.5, restitution=0.5, density=2000.0, cohesion=4e4,
-                                  tensileStrength=3e4, softening=2e-3)
+    material = yade.ConicJointMat(normalStiffness=1e7, shearStiffness=5e6, frictionAngle=0.5, restitution=0.5,
+                                  density=2000.0, cohesion=4e4, tensileStrength=3e4, softening=2e-3)
     joint_scene(yade.InteractionLoop, material, 0.0, (0, 0, -9.81), False, 5e-4, bonds=True)
     shape, edge = dict(r=0.02, k=0.0), SIZE - 1e-4
     add(floor(), (0, 0, -0.5), fixed=True)
@@ -126,7 +130,9 @@ def whole(build=build, name="whole"):
 
 
 def full_disk(file):
-    """What a save there says where no file may have a byte, of each rank; and whether the file stays as it is. The run goes on."""
+    """What a save there says where no file may have a byte, of each rank; and whether the file stays as it is. The run
+    goes on.
+    """
     mpi.gather(None)
     content, told = file.read_bytes(), "nothing"
     before = resource.getrlimit(resource.RLIMIT_FSIZE)
@@ -141,12 +147,15 @@ def full_disk(file):
 
 def contacts_across():
     """Between bodies of two workers, of all ranks."""
-    mine = sum(min(O.bodies[c.id1].subdomain, O.bodies[c.id2].subdomain) not in (0, mpi.rank()) for c in mpi.owned_contacts())
+    mine = sum(
+        min(O.bodies[c.id1].subdomain, O.bodies[c.id2].subdomain) not in (0, mpi.rank()) for c in mpi.owned_contacts())
     return sum(mpi.gather(mine) or [])
 
 
 def resumed():
-    """The second half, from the file that a run of the case `whole`, `joints` or `killed` (fourth argument) with as many ranks as the third says has saved."""
+    """The second half, from the file that a run of the case `whole`, `joints` or `killed` (fourth argument) with as
+    many ranks as the third says has saved.
+    """
     if mpi.rank() == 0:
         mpi.load(FOLDER / f"{sys.argv[4]}_half{sys.argv[3]}.yade.gz")
         mpi.divide(ids())
@@ -220,7 +229,9 @@ def raising_in_step():
 
 
 def refusals():
-    """What rank 0 is told before anything is divided: more workers than bodies, no margin, a free body that was left over."""
+    """What rank 0 is told before anything is divided: more workers than bodies, no margin, a free body that was left
+    over.
+    """
     if mpi.rank() == 0:
         mine, said = build(), []
         for attempt in (lambda: mpi.divide(mine[:1]), lambda: mpi.safe_boxes(0.0), lambda: left_over(mine)):

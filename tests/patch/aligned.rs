@@ -50,7 +50,8 @@ fn a_running_bond_is_what_brute_force_says() {
     assert!((right.force.z / 9.6208e-4 - 1.0).abs() < 1e-5, "{right:?}");
 }
 
-/// Boxes of random sides shifted along one or two edges, flush or equal, with edges of A along edges of B but for a small step.
+/// Boxes of random sides shifted along one or two edges, flush or equal, with edges of A along edges of B but for a
+/// small step.
 #[test]
 fn aligned_boxes_are_what_brute_force_says() {
     let mut chance = Chance::new(50);

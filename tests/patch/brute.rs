@@ -1,5 +1,6 @@
-//! A patch by brute force from its definition, which shares no code with the library: f·m = ∫ p du dv over the plane across m, with the height at
-//! which s_A = s_B by bisection, and Gauss and Kronrod's rule on intervals that are halved until it agrees with itself.
+//! A patch by brute force from its definition, which shares no code with the library: f·m = ∫ p du dv over the plane
+//! across m, with the height at which s_A = s_B by bisection, and Gauss and Kronrod's rule on intervals that are halved
+//! until it agrees with itself.
 
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{Particle, Pose};
@@ -223,7 +224,8 @@ fn rule(from: f64, to: f64, f: &dyn Fn(f64) -> Values) -> [Values; 2] {
     sums
 }
 
-/// The ends of an interval and all places between at which the active planes change, as far as they do from one end to the other.
+/// The ends of an interval and all places between at which the active planes change, as far as they do from one end to
+/// the other.
 fn pieces(from: f64, to: f64, active: &dyn Fn(f64) -> u128) -> Vec<f64> {
     fn add(
         places: &mut Vec<f64>,
@@ -281,8 +283,8 @@ fn halved(
     std::array::from_fn(|j| parts[0][j] + parts[1][j])
 }
 
-/// The patch of two bodies, or of one and the plane through `origin` within `sides` (a, b, c: a u + b v ≤ c), in a frame whose third axis is the
-/// normal; `half`: beyond this distance lies nothing of it. `None` where there is none.
+/// The patch of two bodies, or of one and the plane through `origin` within `sides` (a, b, c: a u + b v ≤ c), in a
+/// frame whose third axis is the normal; `half`: beyond this distance lies nothing of it. `None` where there is none.
 pub fn brute(
     a: (&Particle, &Pose),
     b: Option<(&Particle, &Pose)>,

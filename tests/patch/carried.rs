@@ -54,7 +54,8 @@ struct Tally {
 }
 
 impl Tally {
-    /// How much more a carried patch is off than the one that it was carried on from was, against what its estimate has grown by.
+    /// How much more a carried patch is off than the one that it was carried on from was, against what its estimate has
+    /// grown by.
     fn add(&mut self, carried: [&Patch; 2], exact: [&Patch; 2], reach: f64, name: &str) {
         let [before, now] = [0, 1].map(|i| distance(carried[i], exact[i], reach));
         let grown = (0..2).map(|i| (now[i] - before[i]).norm()).fold(0.0, f64::max);
@@ -265,7 +266,8 @@ fn walls_stay_within_the_estimate() {
     tally.check(1500);
 }
 
-/// Two faces that meet within rounding: s may be above 1 at each point of their patch. What follows, however far they move, is not carried on from it.
+/// Two faces that meet within rounding: s may be above 1 at each point of their patch. What follows, however far they
+/// move, is not carried on from it.
 #[test]
 fn nothing_follows_from_a_touch_within_rounding() {
     let (mut chance, mut without_depth) = (Chance::new(61), 0);
@@ -288,7 +290,8 @@ fn nothing_follows_from_a_touch_within_rounding() {
             without_depth += usize::from(found.largest_depth == 0.0);
             assert!(found.largest_depth >= 0.0, "round {round}: {:e}", found.largest_depth);
             if overlap >= 1e-9 {
-                let anew = patch_of_contact(&a, &pose_a, &b, &pose_b, &contact, &SETTINGS, &mut scratch, |_| ()).unwrap();
+                let anew =
+                    patch_of_contact(&a, &pose_a, &b, &pose_b, &contact, &SETTINGS, &mut scratch, |_| ()).unwrap();
                 let off = (found.force - anew.force).norm() / anew.force.norm();
                 assert!(off < 1e-4, "round {round}, overlap {overlap:e}: {off:e}, {:?}", found.flags);
             }

@@ -4,7 +4,8 @@ use crate::bodies::{Chance, Pair};
 use crate::patch;
 use nalgebra::Vector3;
 
-/// W/K = ℓ ∫ min(1 − s_A, 1 − s_B) dV and the force −∂W/∂x_B = ℓ ∫ ∇s_B dV where B decides, by the midpoint rule in a box.
+/// W/K = ℓ ∫ min(1 − s_A, 1 − s_B) dV and the force −∂W/∂x_B = ℓ ∫ ∇s_B dV where B decides, by the midpoint rule in a
+/// box.
 fn grid(pair: &Pair, cells: usize, reach: f64) -> (f64, Vector3<f64>) {
     let length = pair.a.depth_length() + pair.b.depth_length();
     let step = 2.0 * reach / cells as f64;

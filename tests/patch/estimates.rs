@@ -142,7 +142,8 @@ fn buffers_that_were_used_change_nothing() {
     }
 }
 
-/// Where bodies overlap by little more than rounding, a patch takes no more rays than elsewhere, and says that it is not known well.
+/// Where bodies overlap by little more than rounding, a patch takes no more rays than elsewhere, and says that it is
+/// not known well.
 #[test]
 fn faces_that_touch_to_rounding_take_no_more_than_others() {
     let mut chance = Chance::new(29);
@@ -180,8 +181,8 @@ fn a_smooth_rim_takes_few_rays() {
     }
 }
 
-/// Two stones whose cores have met: the patch runs along a side of one of them, which leans over, and ends where it turns back. Further out there
-/// is another branch of the same conic, a hundred sizes away.
+/// Two stones whose cores have met: the patch runs along a side of one of them, which leans over, and ends where it
+/// turns back. Further out there is another branch of the same conic, a hundred sizes away.
 #[test]
 fn a_patch_in_two_cores_ends_where_it_turns_back() {
     let lower = [

@@ -1,5 +1,5 @@
-//! Deep overlaps of round bodies, where the patch turns back under itself: closed forms of spheres, the gradient of an energy that is
-//! summed over the volume, and walks through the onset.
+//! Deep overlaps of round bodies, where the patch turns back under itself: closed forms of spheres, the gradient of an
+//! energy that is summed over the volume, and walks through the onset.
 
 use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid, difference};
 use crate::patch;
@@ -19,8 +19,9 @@ fn spheres(radii: [f64; 2], distance: f64) -> Pair {
     Pair { a, b, pose_a, pose_b, contact }
 }
 
-/// Force and area of two spheres of unlike radii, A the larger one: of the sphere of Apollonius the part with |x| < R_A, x from the centre of A. And
-/// the cosine at which it ends, seen from its centre: the patch turns back where that is above 0.
+/// Force and area of two spheres of unlike radii, A the larger one: of the sphere of Apollonius the part with |x| <
+/// R_A, x from the centre of A. And the cosine at which it ends, seen from its centre: the patch turns back where that
+/// is above 0.
 fn apollonius([of_a, of_b]: [f64; 2], distance: f64) -> (f64, f64, f64) {
     let square = (of_a / of_b).powi(2);
     let (centre, radius) = (square * distance / (square - 1.0), square.sqrt() * distance / (square - 1.0));
@@ -97,8 +98,8 @@ fn beyond_the_fold(pair: &Pair) -> f64 {
     beyond / whole
 }
 
-/// W/K = ℓ ∫ min(1 − s_A, 1 − s_B) dV by lines along an axis in a square of them about a point: Gauss's rule between the places where either body
-/// begins or ends and where the other decides.
+/// W/K = ℓ ∫ min(1 − s_A, 1 − s_B) dV by lines along an axis in a square of them about a point: Gauss's rule between
+/// the places where either body begins or ends and where the other decides.
 fn by_volume(pair: &Pair, centre: &Vector3<f64>, axis: &Vector3<f64>, reach: f64, lines: usize) -> f64 {
     const RULE: [(f64, f64); 3] =
         [(0.112_701_665_379_258_3, 5.0 / 18.0), (0.5, 8.0 / 18.0), (0.887_298_334_620_741_7, 5.0 / 18.0)];
@@ -188,7 +189,8 @@ fn the_force_is_the_gradient_of_an_energy_summed_over_the_volume() {
     assert!(missing < 12, "{missing}");
 }
 
-/// A small rounded cube that sinks into a ball until the patch has turned back: the energy grows by what the force does, through the onset, too.
+/// A small rounded cube that sinks into a ball until the patch has turned back: the energy grows by what the force
+/// does, through the onset, too.
 #[test]
 fn nothing_jumps_where_a_patch_begins_to_turn_back() {
     let small = cuboid([0.2; 3], 0.15, 0.3);

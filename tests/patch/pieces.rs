@@ -120,7 +120,8 @@ fn floors_are_as_the_fan() {
     }
 }
 
-/// A random body on a floor at z = 0, and a triangle of the floor, of 0.3 to 100 times the patch, whose border mostly crosses it.
+/// A random body on a floor at z = 0, and a triangle of the floor, of 0.3 to 100 times the patch, whose border mostly
+/// crosses it.
 fn over_a_triangle(chance: &mut Chance) -> Option<(Particle, Pose, [[f64; 3]; 3])> {
     let (family, k) = (chance.pick(&FAMILIES), chance.pick(&[0.0, 0.0, 0.0, 0.02]));
     let (r, depth) = (chance.pick(&[1e-6, 1e-4, 1e-3, 0.05, 0.3, 1.0]), chance.pick(&[0.01, 0.1, 0.3, 0.9]));

@@ -102,7 +102,8 @@ fn the_force_is_the_gradient_of_the_energy_and_the_stiffness_that_of_the_force()
     assert!(count > 40, "{count}");
 }
 
-/// Both bodies drift and turn, the pair by little: force, torque and energy within the estimate of those that are integrated.
+/// Both bodies drift and turn, the pair by little: force, torque and energy within the estimate of those that are
+/// integrated.
 #[test]
 fn patches_are_carried_on_within_the_estimate() {
     let scratch = &mut PatchScratch::new();

@@ -65,7 +65,8 @@ fn the_stiffness_of_pairs_is_that_of_differences() {
     });
 }
 
-/// The motions e_i and e_j one after the other, less the same in reverse order: of turns their axis, of a turn and a shift the shift turned.
+/// The motions e_i and e_j one after the other, less the same in reverse order: of turns their axis, of a turn and a
+/// shift the shift turned.
 fn commutator(i: usize, j: usize) -> Vector6<f64> {
     let [(shift, turn), (other_shift, other_turn)] = [i, j].map(|k| {
         let axis = Vector3::ith(k % 3, 1.0);

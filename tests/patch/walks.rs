@@ -46,7 +46,8 @@ fn the_wrench_has_no_jumps() {
         let walks: [(&str, &dyn Fn(f64) -> Pose); 4] =
             [("tilt", &tilt), ("slide", &slide), ("spin", &spin), ("roll", &roll)];
         for (name, walk) in walks {
-            // A jump would stay as the steps get shorter; where the stiffness changes in a short way, the changes fall later.
+            // A jump would stay as the steps get shorter; where the stiffness changes in a short way, the changes fall
+            // later.
             let changes = [200, 800].map(|steps| largest_change(steps, walk, r, k));
             assert!(changes[1] < 0.5 * changes[0] || changes[1] < 2e-3, "{name}, r {r}, k {k}: {changes:?}");
         }

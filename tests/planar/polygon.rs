@@ -5,8 +5,8 @@ use potential_particles::ParticleError;
 use potential_particles::planar::Particle;
 use std::f64::consts::PI;
 
-/// Area of a convex polygon with rounded corners, k = 0: by u and v, the distances beyond the two lines of a corner, the
-/// boundary there is u² + v² = r², and an area is du dv over the sine of the turn between the sides.
+/// Area of a convex polygon with rounded corners, k = 0: by u and v, the distances beyond the two lines of a corner,
+/// the boundary there is u² + v² = r², and an area is du dv over the sine of the turn between the sides.
 fn rounded_area(corners: &[[f64; 2]], r: f64) -> f64 {
     let points: Vec<Vector2<f64>> = corners.iter().map(|&corner| corner.into()).collect();
     let at = |i: usize| points[i % points.len()];

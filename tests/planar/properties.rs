@@ -44,7 +44,12 @@ fn pairs() -> impl Strategy<Value = (Body, Body)> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 256, failure_persistence: None, rng_seed: prop::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(ProptestConfig {
+        cases: 256,
+        failure_persistence: None,
+        rng_seed: prop::test_runner::RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
 
     #[test]
     fn midway_is_what_a_search_finds((a, b) in pairs()) {
@@ -292,8 +297,8 @@ proptest! {
     }
 }
 
-/// The same polygon with normals of any length, and d and r with them, or d alone and so with sharp corners, or neither and so as many times smaller: its
-/// area is told, and the call ends.
+/// The same polygon with normals of any length, and d and r with them, or d alone and so with sharp corners, or neither
+/// and so as many times smaller: its area is told, and the call ends.
 #[test]
 fn areas_are_right_for_normals_of_any_length() {
     use potential_particles::planar::{Line, Particle};

@@ -31,7 +31,8 @@ fn random_contacts_with_planes_and_triangles() {
     check("walls", &ledger(8_000, |index, ledger| walls::one(1, index, walls::solve, ledger)), 1e-2);
 }
 
-/// Planes that come on and go off in turn within the rounding of their depths: the minimum was not found, and the point that was reached was not used.
+/// Planes that come on and go off in turn within the rounding of their depths: the minimum was not found, and the point
+/// that was reached was not used.
 #[test]
 fn where_the_minimum_is_not_found_the_point_that_was_reached_is_the_answer() {
     let mut ledger = Ledger::default();
@@ -54,7 +55,8 @@ fn any_memory_leaves_the_answer_as_it_is() {
     check("memories", &ledger(1_000, |index, ledger| memories::one(1, index, ledger)), 0.0);
 }
 
-/// Of 60 cases with 159 answers two are off by more than three times what they say, or were asked for: no larger share may be.
+/// Of 60 cases with 159 answers two are off by more than three times what they say, or were asked for: no larger share
+/// may be.
 #[test]
 fn hardly_any_patch_is_off_by_more_than_it_says() {
     let ledger = ledger(30, |index, ledger| patches::one(1, index, ledger));
@@ -75,7 +77,8 @@ fn hulls_are_those_of_exact_arithmetic() {
     check("hulls", &ledger(800, |index, ledger| hulls::one(1, index, ledger)), 0.0);
 }
 
-/// The last two have the centre just inside a face: gaps of the mesh, and long rays beside a corner without area, were overlooked.
+/// The last two have the centre just inside a face: gaps of the mesh, and long rays beside a corner without area, were
+/// overlooked.
 #[test]
 fn mass_properties_are_off_by_no_more_than_they_say() {
     let mut failures = Vec::new();
@@ -244,7 +247,8 @@ fn an_overlap_off_by_a_millionth_is_found() {
     assert!(found * 100 >= judged * 99, "{found} of {judged}");
 }
 
-/// Along the boundary, where s hardly tells: those that are missed are points at which 32 digits are not sure themselves.
+/// Along the boundary, where s hardly tells: those that are missed are points at which 32 digits are not sure
+/// themselves.
 #[test]
 fn a_point_ten_bounds_off_is_found() {
     let solver: walls::Solver = spoilt!(|c: &mut FlatContact| {

@@ -91,8 +91,9 @@ fn surface_points_off_by_a_millionth_of_the_overlap_are_found() {
     assert_eq!(failed, judged, "{kinds:?}");
 }
 
-/// Across the normal, where neither s nor the surface points tell. Where the centres coincide the bound is 0, and ten times that
-/// is no error: such pairs do not count. Those that are missed have k = 0, of which the judge compares no points.
+/// Across the normal, where neither s nor the surface points tell. Where the centres coincide the bound is 0, and ten
+/// times that is no error: such pairs do not count. Those that are missed have k = 0, of which the judge compares no
+/// points.
 #[test]
 fn a_point_ten_bounds_off_is_found() {
     let solver: Solver = planted!(|c| {

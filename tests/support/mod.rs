@@ -21,7 +21,8 @@ pub struct Place {
     pub q: [f64; 4],
 }
 
-/// Decimal strings of 40 digits. [`number`] and [`vector`] round them to doubles, [`minus`] subtracts them without rounding.
+/// Decimal strings of 40 digits. [`number`] and [`vector`] round them to doubles, [`minus`] subtracts them without
+/// rounding.
 #[derive(Deserialize)]
 pub struct Truth {
     pub s4: String,
@@ -99,8 +100,8 @@ fn decimal(text: &str) -> (i128, i32) {
     (sign * leading.parse::<i128>().expect("digits"), last)
 }
 
-/// `found` − `truth`, right to 35 digits of the larger of the two: the difference of two numbers that agree in 16 digits has
-/// digits of its own.
+/// `found` − `truth`, right to 35 digits of the larger of the two: the difference of two numbers that agree in 16
+/// digits has digits of its own.
 pub fn minus(found: f64, truth: &str) -> f64 {
     // Every double is a decimal number; 60 digits of it are more than are kept.
     let ((a, place_a), (b, place_b)) = (decimal(&format!("{found:.60e}")), decimal(truth));

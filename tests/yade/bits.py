@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Heaps under each law that ConicInteractionLoop knows; prints one line for each, which says all numbers of the run in short.
+"""Heaps under each law that ConicInteractionLoop knows; prints one line for each, which says all numbers of the run in
+short.
 
-Run by test_sums.py in processes of their own, since the number of threads is of a process: LOOP (the class of the loop).
+Run by test_sums.py in processes of their own, since the number of threads is of a process: LOOP (the class of the
+loop).
 """
 import hashlib
 import os
@@ -19,11 +21,16 @@ def build(loop, physics, law, patch=False, spheres=False):
     """Cubes, pyramids and spheres fall on a floor of facets, a slab and a wall."""
     O.reset()
     if patch:
-        O.materials.append(yade.ConicJointMat(normalStiffness=1e8, shearStiffness=5e7, frictionAngle=0.5, restitution=0.5, density=2000))
+        O.materials.append(
+            yade.ConicJointMat(normalStiffness=1e8, shearStiffness=5e7, frictionAngle=0.5, restitution=0.5,
+                               density=2000))
     else:
         O.materials.append(yade.FrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0))
     functors = contacts(calContactArea=False) if not patch else [
-        yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True), yade.Ig2_Wall_ConicPP_ScGeom(patch=True), yade.Ig2_Facet_ConicPP_ScGeom(patch=True)]
+        yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True),
+        yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
+        yade.Ig2_Facet_ConicPP_ScGeom(patch=True)
+    ]
     O.engines = [
         yade.ForceResetter(),
         yade.BoundWatch(),
@@ -62,19 +69,22 @@ def numbers():
             # YADE's law reads isBoundary of every shape, also of those that have none.
             for name in "tensionBroken", "cohesionBroken":
                 physics.pop(name, None)
-        taken.update(repr((i.id1, i.id2, i.iterMadeReal, sorted(i.geom.dict().items()), sorted(physics.items()))).encode())
+        taken.update(
+            repr((i.id1, i.id2, i.iterMadeReal, sorted(i.geom.dict().items()), sorted(physics.items()))).encode())
     return taken.hexdigest()[:24], len(touching)
 
 
 def knks(**keywords):
-    return yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e6, ks_i=5e5, Knormal=1e6, Kshear=5e5, viscousDamping=0.2, useFaceProperties=False, **keywords)
+    return yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e6, ks_i=5e5, Knormal=1e6, Kshear=5e5, viscousDamping=0.2,
+                                               useFaceProperties=False, **keywords)
 
 
 CASES = {
     "KnKs": lambda loop: build(loop, knks(), yade.Law2_SCG_KnKsPhys_KnKsLaw(allowViscousAttraction=False)),
     "KnKs, kept": lambda loop: build(loop, knks(), yade.Law2_SCG_KnKsPhys_KnKsLaw(neverErase=True, allowBreakage=True)),
     "Cundall": lambda loop: build(loop, *(one[0] for one in friction_physics()), spheres=True),
-    "joint": lambda loop: build(loop, yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(), yade.Law2_ScGeomConicPP_ConicJointPhys(), patch=True),
+    "joint": lambda loop: build(loop, yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(),
+                                yade.Law2_ScGeomConicPP_ConicJointPhys(), patch=True),
 }
 for name, case in CASES.items():
     case(loop_class)

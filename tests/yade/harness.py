@@ -84,10 +84,14 @@ def joint_scene(loop, material, damping, gravity, track, dt, **physics):
     O.materials.append(material)
     O.engines = [
         yade.ForceResetter(),
-        yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=0.01),
-        loop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True), yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
-              yade.Ig2_Facet_ConicPP_ScGeom(patch=True)],
-             [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(**physics)],
+        yade.InsertionSortCollider(
+            [yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(),
+             yade.Bo1_Facet_Aabb()], verletDist=0.01),
+        loop([
+            yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True),
+            yade.Ig2_Wall_ConicPP_ScGeom(patch=True),
+            yade.Ig2_Facet_ConicPP_ScGeom(patch=True)
+        ], [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(**physics)],
              [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
         yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=gravity),
     ]

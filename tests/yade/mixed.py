@@ -26,8 +26,8 @@ def area_physics(stiffness=1e7):
             [yade.Law2_SCG_KnKsPhys_KnKsLaw(neverErase=False)])
 
 
-def mixed_scene(functors=None, physics=None, loop=None, dt=1e-5, gravity=(0, 0, 0), friction=0.0, damping=0.0, young=1e7,
-                periodic=False, verlet=0.0):
+def mixed_scene(functors=None, physics=None, loop=None, dt=1e-5, gravity=(0, 0, 0), friction=0.0, damping=0.0,
+                young=1e7, periodic=False, verlet=0.0):
     O.reset()
     O.materials.append(yade.FrictMat(young=young, poisson=0.3, frictionAngle=friction, density=2000.0))
     O.periodic = periodic
@@ -62,7 +62,9 @@ def floor(size, cells, height=0.0, flip=False):
     step = 2.0 * size / cells
     at = lambda i, j: (-size + i * step, -size + j * step, height)
     squares = [[at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)] for i in range(cells) for j in range(cells)]
-    return [three for a, b, c, d in squares for three in (((a, b, c), (a, c, d)) if not flip else ((a, b, d), (b, c, d)))]
+    return [
+        three for a, b, c, d in squares for three in (((a, b, c), (a, c, d)) if not flip else ((a, b, d), (b, c, d)))
+    ]
 
 
 def touching():

@@ -4,10 +4,11 @@
 
     tests/yade/run.py [-j N]... [--long] [-v] [NAME ...]
 
-Of its first lines, "# threads" says that a script is about threads: it runs with two, the others with one. "# long" says that it takes long and says
-little to a user: it is left to --long, which runs what is left out otherwise: those scripts, and all with the other number of threads. -j, or a NAME:
-all scripts, with so many threads. Each script prints 'N passed, N failed' alone on its last line. Exit status 1 if anything failed, if a script
-died, or if it checked nothing.
+Of its first lines, "# threads" says that a script is about threads: it runs with two, the others with one. "# long"
+says that it takes long and says
+little to a user: it is left to --long, which runs what is left out otherwise: those scripts, and all with the other
+number of threads. -j, or a NAME: all scripts, with so many threads. Each script prints 'N passed, N failed' alone on
+its last line. Exit status 1 if anything failed, if a script died, or if it checked nothing.
 """
 import argparse
 import os
@@ -52,7 +53,8 @@ def judged(script, threads, package, scratch):
         done = subprocess.run(command, env=environment, cwd=scratch, text=True, errors="replace", timeout=SECONDS,
                               stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     except subprocess.TimeoutExpired as late:
-        said = (late.stdout or b"").decode(errors="replace") if isinstance(late.stdout, (bytes, type(None))) else late.stdout
+        said = (late.stdout or b"").decode(errors="replace") if isinstance(late.stdout,
+                                                                           (bytes, type(None))) else late.stdout
         return 0, 1, f"{said}\nFAILED: still running after {SECONDS} s"
     summary = next(filter(None, map(SUMMARY.fullmatch, reversed(done.stdout.splitlines()))), None)
     if not summary:
@@ -77,7 +79,8 @@ def main():
     arguments.add_argument("-j", dest="threads", type=int, action="append", help="threads of YADE")
     arguments.add_argument("--long", action="store_true", help="what is left out without it")
     arguments.add_argument("-v", dest="verbose", action="store_true", help="show the whole output of every script")
-    arguments.add_argument("--package", type=lambda folder: Path(folder).resolve(), default=PACKAGE, help="folder that holds the built package")
+    arguments.add_argument("--package", type=lambda folder: Path(folder).resolve(), default=PACKAGE,
+                           help="folder that holds the built package")
     arguments.add_argument("names", nargs="*", help="only scripts whose name contains one of these")
     options = arguments.parse_args()
     if not (options.package / "potential_particles" / "_glue.so").exists():
@@ -103,7 +106,9 @@ def main():
         for (script, count, _), (passed, failed, text, seconds) in zip(tasks, pool.map(lambda task: run(*task), tasks)):
             total_passed += passed
             total_failed += failed
-            print(f"{'FAIL' if failed else 'ok  '} {script.stem:24} -j{count}  {passed:4} passed {failed:3} failed  {seconds:5.1f} s", flush=True)
+            print(
+                f"{'FAIL' if failed else 'ok  '} {script.stem:24} -j{count}  {passed:4} passed {failed:3} failed  {seconds:5.1f} s",
+                flush=True)
             for line in text.splitlines() if options.verbose else faults(text):
                 print("    " * options.verbose + line)
             for line in text.splitlines():

@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# A YADE that does not fit is refused when the plugin is loaded, with the differences listed. (At build time: test_abi_probe.py.)
+# SPDX-License-Identifier: GPL-3.0-or-later A YADE that does not fit is refused when the plugin is loaded, with the
+# differences listed. (At build time: test_abi_probe.py.)
 import os
 import shutil
 import subprocess
@@ -40,7 +40,8 @@ except ImportError as error:
     check.true("2099.01a" in str(error) and true_version in str(error), f"the refusal names both versions: {error}")
     found = getattr(error, "differences", [])
     check.equal([difference.split(":")[0] for difference in found],
-                ["KnKsPhys.kn", "KnKsPhys.ks", "Aabb.min", "Aabb.max", "Scene.trackEnergy", "Scene.doSort"], f"differences are listed: {found}")
+                ["KnKsPhys.kn", "KnKsPhys.ks", "Aabb.min", "Aabb.max", "Scene.trackEnergy", "Scene.doSort"],
+                f"differences are listed: {found}")
 check.true(not hasattr(yade.wrapper, "ConicPotentialParticle"), "nothing is registered after a refusal")
 check.true("ConicPotentialParticle" not in yade.system._allSerializables, "nor listed")
 yade.config.version = true_version
@@ -56,7 +57,8 @@ add(cube(), Vector3(0, 0, 0), fixed=True)
 add(cube(), Vector3(0, 0, 0.98), fixed=True)
 module.prepare()
 run(2)
-check.true(O.interactions[0, 1].isReal, "engines made before the import serve the new shape, the built-in functor included")
+check.true(O.interactions[0, 1].isReal,
+           "engines made before the import serve the new shape, the built-in functor included")
 
 # A second copy of the module in the same process finds its names taken.
 check.raises(Exception, lambda: module._glue.register_classes(), "second registration", "already has a class")
@@ -94,7 +96,8 @@ def import_with(glue=lambda binary: binary, library=None):
 
 
 def compiled(source):
-    return lambda path: subprocess.run(["gcc", "-shared", "-fPIC", "-x", "c", "-", "-o", path], input=source, text=True, check=True)
+    return lambda path: subprocess.run(["gcc", "-shared", "-fPIC", "-x", "c", "-", "-o", path], input=source, text=True,
+                                       check=True)
 
 
 said = import_with(lambda binary: binary.replace(b"libpotential_particles.so", b"libpotential_particles.no"))
@@ -102,8 +105,10 @@ check.true("ImportError" in said and "cargo build" in said, f"missing library: {
 said = import_with(library=lambda path: open(path, "w").close())
 check.true("ImportError" in said and "cargo build" in said, f"empty library: {said}")
 said = import_with(library=compiled("int other;"))
-check.true("ImportError" in said and "pp_" in said and "build both again" in said, f"a library without our functions: {said}")
-undefined = subprocess.run(["nm", "-D", "--undefined-only", os.path.join(GLUE, "_glue.so")], capture_output=True, text=True)
+check.true("ImportError" in said and "pp_" in said and "build both again" in said,
+           f"a library without our functions: {said}")
+undefined = subprocess.run(
+    ["nm", "-D", "--undefined-only", os.path.join(GLUE, "_glue.so")], capture_output=True, text=True)
 called = [word for word in undefined.stdout.split() if word.startswith("pp_") and word != "pp_version"]
 said = import_with(library=compiled('const char *pp_version(void) { return "9.8.7"; }\n'
                                     + "".join(f"void {name}(void) {{}}\n" for name in called)))
@@ -112,7 +117,8 @@ others = [name for name in called if name != "pp_abi_version"]
 said = import_with(library=compiled('const char *pp_version(void) { return "%s"; }\n' % module.library_version()
                                     + "unsigned pp_abi_version(void) { return 999; }\n"
                                     + "".join(f"void {name}(void) {{}}\n" for name in others)))
-check.true("ImportError" in said and "999" in said and "build the plugin again" in said, f"another binary interface: {said}")
+check.true("ImportError" in said and "999" in said and "build the plugin again" in said,
+           f"another binary interface: {said}")
 said = import_with(lambda binary: b"")
 check.true("ImportError" in said and "cmake --build" in said, f"empty plugin: {said}")
 

@@ -29,7 +29,8 @@ def answers(position, orientation=Quaternion.Identity, steps=3, **keywords):
 
 edge = cube().surfaceDistance([(0, 1, 1)])[0]
 crossed = turned((0, 1, 0), math.pi / 4)  # the lowest edge of one lies across the highest of the other
-check.equal(answers(Vector3(0, 0, 2 * cube().boundingRadius + 0.01)), ({"spheres": 1, "motion": 2}, 1.0, 0), "far apart")
+check.equal(answers(Vector3(0, 0, 2 * cube().boundingRadius + 0.01)), ({"spheres": 1, "motion": 2}, 1.0, 0),
+            "far apart")
 check.equal(answers(Vector3(0, 0.9, 0.9)), ({"face": 1, "motion": 2}, 1.0, 0), "face to face")
 found, share, touching = answers(Vector3(0, 0, 2 * edge + 0.002), crossed, steps=20)
 # The proof tells the distance, so that they sleep from then on.

@@ -126,7 +126,8 @@ def opened(kind):
 
 states = []
 one, other = both(opened, lambda: list(states))
-check.equal([state[:2] for state in one], [state[:2] for state in other], "kept, and open or closed, as the built-in has it")
+check.equal([state[:2] for state in one], [state[:2] for state in other],
+            "kept, and open or closed, as the built-in has it")
 check.equal([state[:2] for state in other[2:4]], [(True, False)] * 2, "kept while open")
 for step, (a, b) in enumerate(zip(one, other)):
     check.close(b[2], a[2], 1e-3 * one[-1][2], f"force in step {step} of a contact that is never erased")

@@ -22,15 +22,18 @@ def f_in_world(made, point):
     return made.shape.potential(made.state.ori.conjugate() * (point - made.state.pos))
 
 
-for position, orientation in [((0, 0, 0), (1, 0, 0, 0)), ((1, -2, 3), (0.3, 0.5, -0.2, 0.9)), ((0, 0, 1e3), turned((1, 1, 0), 2.0))]:
+for position, orientation in [((0, 0, 0), (1, 0, 0, 0)), ((1, -2, 3), (0.3, 0.5, -0.2, 0.9)),
+                              ((0, 0, 1e3), turned((1, 1, 0), 2.0))]:
     made = body(wedge, steel, position, orientation)
     turn = orientation if isinstance(orientation, Quaternion) else Quaternion(*orientation)
     turn.normalize()
     for a, b, c, h in planes[:3]:
         foot = Vector3(*wedge.centroid)
         foot += Vector3(a, b, c) * (h - Vector3(a, b, c).dot(foot))
-        check.close(f_in_world(made, turn * foot + Vector3(*position)), 0.0, 1e-8, f"a face stands where it was built, {position}")
-    check.close(made.state.pos, turn * Vector3(*wedge.centroid) + Vector3(*position), 1e-9, "the state is that of the centroid")
+        check.close(f_in_world(made, turn * foot + Vector3(*position)), 0.0, 1e-8,
+                    f"a face stands where it was built, {position}")
+    check.close(made.state.pos,
+                turn * Vector3(*wedge.centroid) + Vector3(*position), 1e-9, "the state is that of the centroid")
     check.close(made.state.mass / (7800 * wedge.volume), 1.0, 1e-12, "mass")
     check.close(made.state.inertia, 7800 * Vector3(*wedge.inertia), 1e-9 * made.state.mass, "inertia")
     check.true(made.aspherical and made.state.blockedDOFs == "", "free and no sphere")
@@ -46,7 +49,8 @@ second = inside.T @ inside / len(inside)
 turn = made.state.ori.toRotationMatrix()
 turn = np.array([[turn[i, j] for j in range(3)] for i in range(3)])
 expected = turn @ np.diag(made.state.inertia) @ turn.T / made.state.mass
-check.true(np.abs(np.trace(second) * np.eye(3) - second - expected).max() < 4e-3 * expected.max(), "inertia in world axes")
+check.true(
+    np.abs(np.trace(second) * np.eye(3) - second - expected).max() < 4e-3 * expected.max(), "inertia in world axes")
 
 # Materials: one given, by label, by number, the last one.
 O.materials.append(steel)
@@ -66,13 +70,15 @@ check.close(energy / own, 1.0, 1e-12, "kinetic energy before the first step")
 run(500)
 check.close(utils.kineticEnergy() / energy, 1.0, 1e-5, "kinetic energy of a free body")
 # YADE 2025 has it of a velocity and an orientation half a step apart.
-check.close(utils.angularMomentum(), momentum_before, spun.state.angVel.norm() * O.dt * momentum_before.norm(), "its angular momentum")
+check.close(utils.angularMomentum(), momentum_before,
+            spun.state.angVel.norm() * O.dt * momentum_before.norm(), "its angular momentum")
 check.close(spun.state.vel, Vector3(1, 2, 3), 1e-12, "velocity of its centroid")
 
 # Fixed, masked and coloured bodies, and further attributes of the shape.
 O.reset()
 held = body(cube, steel, fixed=True, color=(1, 0, 0), mask=6, isBoundary=True, wire=True)
-check.equal((held.state.blockedDOFs, held.mask, held.shape.isBoundary, held.shape.wire), ("xyzXYZ", 6, True, True), "attributes")
+check.equal((held.state.blockedDOFs, held.mask, held.shape.isBoundary, held.shape.wire), ("xyzXYZ", 6, True, True),
+            "attributes")
 check.equal(held.shape.color, Vector3(1, 0, 0), "colour")
 
 # Two at rest on a fixed one, by the step that is advised.
@@ -85,8 +91,8 @@ for i, one in enumerate(ids):
     check.close(O.bodies[one].state.pos[2], 0.5, 0.08, f"cube {i} rests with the critical time step")
 check.true(utils.kineticEnergy() < 1e-2 * 7800 * 9.81, "and does not shake")
 
-# Two bodies joined by one spring through their centres: omega^2 = 2 k/m. The limit is below that of leapfrog, and not by far more than
-# it says.
+# Two bodies joined by one spring through their centres: omega^2 = 2 k/m. The limit is below that of leapfrog, and not
+# by far more than it says.
 fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), stiffness=1e5)
 O.materials.append(steel)
 ball = shapes.sphere(1.0)
@@ -97,15 +103,19 @@ mass, k = O.bodies[0].state.mass, O.interactions.all()[0].phys.kn
 exact = 2.0 / math.sqrt(2 * k / mass)
 advised = critical_time_step(stiffness=1e-9, safety=1.0)
 # ks = kn there: the turn of a ball about a contact at the arm 0.995 adds 5/2 of its square to 1.
-check.close(advised, 2.0 / math.sqrt(2 * k / mass * (1 + 2.5 * 0.995**2)), 1e-4 * advised, "largest eigenvalue of a ball at a contact")
+check.close(advised, 2.0 / math.sqrt(2 * k / mass * (1 + 2.5 * 0.995**2)), 1e-4 * advised,
+            "largest eigenvalue of a ball at a contact")
 check.true(advised <= exact, "it is below the limit of the translation")
-check.close(critical_time_step(stiffness=4e5) / critical_time_step(stiffness=1e5), 0.5, 1e-9, "a stiffer contact: half the step")
+check.close(
+    critical_time_step(stiffness=4e5) / critical_time_step(stiffness=1e5), 0.5, 1e-9,
+    "a stiffer contact: half the step")
 check.true(critical_time_step() <= advised, "new contacts count as well")
 
-# A plate on a wall: as it tilts, its contact point moves on its face, of which springs at the point know nothing. Against the torque after a small tilt.
+# A plate on a wall: as it tilts, its contact point moves on its face, of which springs at the point know nothing.
+# Against the torque after a small tilt.
 for shape in shapes.cuboid((0.2, 0.2, 0.03)), shapes.cuboid((0.2, 0.2, 0.03), k=0.5), shapes.random_rock(1, size=0.1):
-    fresh_scene(yade.Ig2_Wall_ConicPP_ScGeom(carryTolerance=0.0), yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False),
-                dt=1e-12)
+    fresh_scene(yade.Ig2_Wall_ConicPP_ScGeom(carryTolerance=0.0), yade.Ip2_FrictMat_FrictMat_FrictPhys(),
+                yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-12)
     O.engines[1].boundDispatcher.functors = [yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb()]
     O.engines[-1].dead, O.engines[1].verletDist = True, 0.0
     O.bodies.append(utils.wall(0, axis=2))
@@ -125,15 +135,21 @@ for shape in shapes.cuboid((0.2, 0.2, 0.03)), shapes.cuboid((0.2, 0.2, 0.03), k=
     contact = torque(0.0, Vector3(1, 0, 0))[1]
     normal, point = (np.array([list(one)]) for one in (contact.geom.normal, contact.geom.contactPoint))
     jitter, rolling.JITTER = rolling.JITTER, 0.0
-    found = rolling.turning_stiffness([contact], normal, point, np.array([contact.phys.normalForce.norm()]), np.array([contact.phys.kn]))[0, 1]
+    found = rolling.turning_stiffness([contact], normal, point, np.array([contact.phys.normalForce.norm()]),
+                                      np.array([contact.phys.kn]))[0, 1]
     rolling.JITTER = jitter
     # What the spring itself does, at an arm from the centre.
     arm = contact.geom.contactPoint - plate.state.pos
-    spring = [contact.phys.kn * arm.cross(Vector3(0, 0, 1)).dot(axis) * arm.cross(Vector3(0, 0, 1)) for axis in (Vector3(1, 0, 0), Vector3(0, 1, 0))]
+    spring = [
+        contact.phys.kn * arm.cross(Vector3(0, 0, 1)).dot(axis) * arm.cross(Vector3(0, 0, 1))
+        for axis in (Vector3(1, 0, 0), Vector3(0, 1, 0))
+    ]
     for i in 0, 1:
         expected = exact[i][i] - spring[i][i]
-        check.close(found[i, i], max(expected, 0.0), 0.03 * abs(expected) + 1e-3 * abs(exact[i][i]), f"stiffness against turning of {shape.name}")
-    check.true(shape.name != "cuboid" or shape.k > 0.1 or found[0, 0] > 100 * contact.phys.normalForce.norm() * 0.1, "large on a flat face")
+        check.close(found[i, i], max(expected, 0.0), 0.03 * abs(expected) + 1e-3 * abs(exact[i][i]),
+                    f"stiffness against turning of {shape.name}")
+    check.true(shape.name != "cuboid" or shape.k > 0.1 or found[0, 0] > 100 * contact.phys.normalForce.norm() * 0.1,
+               "large on a flat face")
 O.engines = []
 check.raises(ValueError, critical_time_step, "no engines", "no physics functor")
 O.bodies.clear()
@@ -163,12 +179,15 @@ check.raises(ValueError, lambda: porosity((0, 0, 0), (1, 1, 0)), "a box without 
 O.reset()
 nan = float("nan")
 check.raises(ValueError, lambda: body(cube), "no material", "there is no material")
-for action, words in [
-        (lambda: body("cube", steel), "not a Shape"), (lambda: body(cube, "wood"), "material='wood'"), (lambda: body(cube, 7), "material=7"),
-        (lambda: body(cube, yade.FrictMat(density=0)), "density=0"), (lambda: body(cube, steel, (0, nan, 0)), "position"),
-        (lambda: body(cube, steel, (0, 0)), "position"), (lambda: body(cube, steel, orientation=(0, 0, 0, 0)), "orientation"),
-        (lambda: body(cube, steel, orientation=(1, 0, 0)), "orientation"), (lambda: body(cube, steel, velocity=(0, 0, nan)), "velocity"),
-        (lambda: body(cube, steel, color="red"), "color")]:
+for action, words in [(lambda: body("cube", steel), "not a Shape"), (lambda: body(cube, "wood"), "material='wood'"),
+                      (lambda: body(cube, 7), "material=7"),
+                      (lambda: body(cube, yade.FrictMat(density=0)), "density=0"),
+                      (lambda: body(cube, steel, (0, nan, 0)), "position"),
+                      (lambda: body(cube, steel, (0, 0)), "position"),
+                      (lambda: body(cube, steel, orientation=(0, 0, 0, 0)), "orientation"),
+                      (lambda: body(cube, steel, orientation=(1, 0, 0)), "orientation"),
+                      (lambda: body(cube, steel, velocity=(0, 0, nan)), "velocity"),
+                      (lambda: body(cube, steel, color="red"), "color")]:
     check.raises(ValueError, action, f"bad input: {words}", words)
 check.equal((len(O.bodies), len(O.materials)), (0, 0), "nothing was put into the scene")
 check.finish()

@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# Bonds: strength against closed forms, force and torque against differences of the energy, energy, what breaks and what goes on.
+# SPDX-License-Identifier: GPL-3.0-or-later Bonds: strength against closed forms, force and torque against differences
+# of the energy, energy, what breaks and what goes on.
 import math
 import os
 import tempfile
@@ -20,7 +20,8 @@ STRONG = 1e30
 def scene(gravity=(0, 0, 0), loop=yade.InteractionLoop, bonds=True, dt=1e-5, track=False, periodic=False, **material):
     O.reset()
     O.periodic = periodic
-    given = dict(normalStiffness=NORMAL, shearStiffness=SHEAR, frictionAngle=0.5, density=2000.0, cohesion=STRONG, tensileStrength=STRONG)
+    given = dict(normalStiffness=NORMAL, shearStiffness=SHEAR, frictionAngle=0.5, density=2000.0, cohesion=STRONG,
+                 tensileStrength=STRONG)
     joint_scene(loop, yade.ConicJointMat(**{**given, **material}), 0.0, gravity, track, dt, bonds=bonds)
 
 
@@ -68,7 +69,9 @@ lower, upper = column()
 phys = joint()
 check.true(phys.bonded and not phys.broken and phys.damage == 0, "bonded")
 check.true(abs(phys.bondArea / AREA - 1) < 1e-5, f"area {phys.bondArea}")
-check.true(max(abs(a / b - 1) for a, b in zip(phys.bondMoments, (POLAR, SECOND, SECOND))) < 2e-5, f"moments {phys.bondMoments}")
+check.true(
+    max(abs(a / b - 1) for a, b in zip(phys.bondMoments, (POLAR, SECOND, SECOND))) < 2e-5,
+    f"moments {phys.bondMoments}")
 corners = [math.hypot(*phys.bondRim[i:i + 2]) for i in range(0, len(phys.bondRim), 2)]
 check.true(abs(max(corners) / (FACE / math.sqrt(2)) - 1) < 1e-5, f"corners at {max(corners)}")
 check.close(phys.bondDisplacement[0], -OVERLAP, 1e-5 * OVERLAP, "it begins with the overlap")
@@ -79,7 +82,8 @@ check.close(on(upper)[0], before, 1e-5 * before.norm(), "and with its force")
 # --- force and torque are minus the derivatives of the energy ----------------------------------------------------
 
 lower, upper = column()
-for turn1, turn2, way in (((0, 0, 0), (1e-3, 2e-3, -1e-3), (1e-3, -2e-3, 3e-3)), ((0.3, 1.2, -0.4), (0.2, -0.9, 1.5), (0.3, 0.1, 0.4))):
+for turn1, turn2, way in (((0, 0, 0), (1e-3, 2e-3, -1e-3), (1e-3, -2e-3, 3e-3)), ((0.3, 1.2, -0.4), (0.2, -0.9, 1.5),
+                                                                                  (0.3, 0.1, 0.4))):
     phys = joint()
     lower.state.ori, upper.state.ori = turned_by(turn1), turned_by(turn2)
     upper.state.pos = Vector3(0, 0, EDGE) + Vector3(*way)
@@ -150,17 +154,24 @@ def bent(axis, angle):
 
 
 step = STRENGTH / NORMAL / 300
-for name, found, expected in (
-        ("tension", load_at_break(displaced(0, 0, step), lambda b: -on(b)[0][2], tensileStrength=STRENGTH), STRENGTH * AREA),
-        ("shear", load_at_break(displaced(STRENGTH / SHEAR / 300, 0, 0), lambda b: -on(b)[0][0], cohesion=STRENGTH), STRENGTH * AREA),
-        ("bending", load_at_break(bent((0, 1, 0), 2 * step / FACE), lambda b: -on(b)[1][1], tensileStrength=STRENGTH),
-         STRENGTH * FACE**3 / 6),
-        ("twist", load_at_break(bent((0, 0, 1), math.sqrt(2) * STRENGTH / SHEAR / 300 / FACE), lambda b: -on(b)[1][2], cohesion=STRENGTH),
-         STRENGTH * POLAR / (FACE / math.sqrt(2)))):
+for name, found, expected in (("tension",
+                               load_at_break(displaced(0, 0, step), lambda b: -on(b)[0][2], tensileStrength=STRENGTH),
+                               STRENGTH * AREA), ("shear",
+                                                  load_at_break(displaced(STRENGTH / SHEAR / 300, 0,
+                                                                          0), lambda b: -on(b)[0][0],
+                                                                cohesion=STRENGTH), STRENGTH * AREA),
+                              ("bending",
+                               load_at_break(bent((0, 1, 0), 2 * step / FACE), lambda b: -on(b)[1][1],
+                                             tensileStrength=STRENGTH), STRENGTH * FACE**3 / 6),
+                              ("twist",
+                               load_at_break(bent((0, 0, 1),
+                                                  math.sqrt(2) * STRENGTH / SHEAR / 300 / FACE), lambda b: -on(b)[1][2],
+                                             cohesion=STRENGTH), STRENGTH * POLAR / (FACE / math.sqrt(2)))):
     check.true(abs(found / expected - 1) < 5e-3, f"{name}: {found:.6g} against {expected:.6g}")
 
 # Pressed, it bears more shear: c + mu p, and slips with the residual values after that.
-lower, upper = column(cohesion=STRENGTH, frictionAngle=math.atan(FRICTION), residualFrictionAngle=math.atan(0.3), residualCohesion=2e4)
+lower, upper = column(cohesion=STRENGTH, frictionAngle=math.atan(FRICTION), residualFrictionAngle=math.atan(0.3),
+                      residualCohesion=2e4)
 depth, forces = 1e-4, []
 for i in range(400):
     upper.state.pos = Vector3(i * 1e-6, 0, EDGE - OVERLAP - depth)
@@ -171,7 +182,9 @@ for i in range(400):
 pressure = NORMAL * depth
 check.true(abs(max(forces) / (AREA * (STRENGTH + FRICTION * pressure)) - 1) < 5e-3, f"peak {max(forces)}")
 geom = O.interactions[0, 1].geom
-check.true(abs(forces[-1] / (2e4 * geom.contactArea + 0.3 * on(upper)[0][2]) - 1) < 5e-3 and joint().broken, f"residual {forces[-1]}")
+check.true(
+    abs(forces[-1] / (2e4 * geom.contactArea + 0.3 * on(upper)[0][2]) - 1) < 5e-3 and joint().broken,
+    f"residual {forces[-1]}")
 
 # --- energy ----------------------------------------------------------------------------------------------------------
 
@@ -184,7 +197,8 @@ def potential_energy():
     kinetic = 0.0
     for body in O.bodies:
         spin = body.state.ori.conjugate() * body.state.angVel
-        kinetic += 0.5 * (body.state.mass * body.state.vel.squaredNorm() + sum(body.state.inertia[i] * spin[i]**2 for i in range(3)))
+        kinetic += 0.5 * (body.state.mass * body.state.vel.squaredNorm() + sum(body.state.inertia[i] * spin[i]**2
+                                                                               for i in range(3)))
     return kinetic
 
 
@@ -233,9 +247,12 @@ for softening in (0.0, 3e-4):
         upper.state.pos = Vector3(0, 0, EDGE - OVERLAP + i * 1e-7)
         O.step()
     expected = 0.5 * 1e5 * (1e5 / NORMAL + softening) * AREA
-    check.true(abs(O.energy["bondBreaking"] / expected - 1) < 1e-2, f"fracture energy {O.energy['bondBreaking']}, expected {expected}")
+    check.true(
+        abs(O.energy["bondBreaking"] / expected - 1) < 1e-2,
+        f"fracture energy {O.energy['bondBreaking']}, expected {expected}")
 
-# --- a bond outlives its overlap, ends with its bodies, and is made when asked for -----------------------------------------
+# --- a bond outlives its overlap, ends with its bodies, and is made when asked for
+# -----------------------------------------
 
 lower, upper = column()
 upper.state.pos += Vector3(0, 0, 0.5)
@@ -277,7 +294,8 @@ for boundary in ("wall", "facets"):
     O.step()
     body.state.pos += Vector3(0, 0, 1e-4)
     O.step()
-    check.true(abs(on(body)[0][2] / (-NORMAL * AREA * 1e-4) - 1) < 1e-4, f"{boundary} holds a bonded block: {on(body)[0]}")
+    check.true(
+        abs(on(body)[0][2] / (-NORMAL * AREA * 1e-4) - 1) < 1e-4, f"{boundary} holds a bonded block: {on(body)[0]}")
     bound = [contact.phys for contact in O.interactions if contact.isReal]
     rims = sum(0.5 * sum(x[i] * x[(i + 3) % len(x)] - x[i + 1] * x[(i + 2) % len(x)] for i in range(0, len(x), 2))
                for x in (one.bondRim for one in bound))
@@ -285,15 +303,21 @@ for boundary in ("wall", "facets"):
 
 # A round patch, of two balls: area, corners on a circle, and the moments of a disc.
 scene()
-balls = [O.bodies[add(yade.ConicPotentialParticle(planes=cube_planes(0.9, 0.05), r=0.05, k=1.0, R=0.5), Vector3(0, 0, height), fixed=True)]
-         for height in (0, 0.999)]
+balls = [
+    O.bodies[add(yade.ConicPotentialParticle(planes=cube_planes(0.9, 0.05), r=0.05, k=1.0, R=0.5),
+                 Vector3(0, 0, height), fixed=True)] for height in (0, 0.999)
+]
 O.step()
 phys = joint()
 corners = [math.hypot(*phys.bondRim[i:i + 2]) for i in range(0, len(phys.bondRim), 2)]
 radius = math.sqrt(0.25 - 0.4995**2)
-check.true(len(corners) >= 24 and max(abs(corner / radius - 1) for corner in corners) < 1e-3, f"corners of a disc of {radius}: {corners}")
-check.true(abs(phys.bondArea / (math.pi * radius**2) - 1) < 1e-3 and abs(phys.bondMoments[0] / (math.pi / 2 * radius**4) - 1) < 1e-3,
-           f"area and polar moment of a disc: {phys.bondArea}, {phys.bondMoments}")
+check.true(
+    len(corners) >= 24 and max(abs(corner / radius - 1) for corner in corners) < 1e-3,
+    f"corners of a disc of {radius}: {corners}")
+check.true(
+    abs(phys.bondArea / (math.pi * radius**2) - 1) < 1e-3
+    and abs(phys.bondMoments[0] / (math.pi / 2 * radius**4) - 1) < 1e-3,
+    f"area and polar moment of a disc: {phys.bondArea}, {phys.bondMoments}")
 
 # Across the boundary of a periodic cell.
 scene(periodic=True)
@@ -303,7 +327,8 @@ left, right = block((3.5 + OVERLAP, 2, 2), fixed=True), block((0.5, 2, 2), fixed
 O.step()
 right.state.pos += Vector3(1e-4, 0, 0)
 O.step()
-check.true(joint().bonded and abs(on(right)[0][0] / (-NORMAL * AREA * 1e-4) - 1) < 1e-4, f"across the cell: {on(right)[0]}")
+check.true(joint().bonded and abs(on(right)[0][0] / (-NORMAL * AREA * 1e-4) - 1) < 1e-4,
+           f"across the cell: {on(right)[0]}")
 
 # A pair that flies and turns across it, with dashpots, moves as one does that is whole within the cell.
 ways = []
@@ -320,10 +345,13 @@ for start in (1.5, 3.5):
         right.state.vel += Vector3(2, 0, 0)
         run(1500)
         check.true(whole and not (O.interactions.has(0, 1) and joint().bonded), f"it holds, and breaks later: {whole}")
-        ways.append([left.state.pos - Vector3(start, 0, 0), right.state.pos - Vector3(start + (-4 if start > 3 else 0), 0, 0),
-                     left.state.vel, right.state.vel, left.state.angVel, right.state.angVel])
+        ways.append([
+            left.state.pos - Vector3(start, 0, 0), right.state.pos - Vector3(start + (-4 if start > 3 else 0), 0, 0),
+            left.state.vel, right.state.vel, left.state.angVel, right.state.angVel
+        ])
 for way in ways[1:]:
-    check.true(all((one - other).norm() < 1e-9 for one, other in zip(way, ways[0])), f"the same motion across the cell: {way} and {ways[0]}")
+    check.true(all((one - other).norm() < 1e-9 for one, other in zip(way, ways[0])),
+               f"the same motion across the cell: {way} and {ways[0]}")
 
 # Members of a clump: two blocks in one hold as one of twice the length does.
 ends = []
@@ -336,8 +364,10 @@ for clumped in (False, True):
         whole.state.inertia = long.state.inertia  # YADE counts the rounding of their common face as well
         whole.state.mass = long.state.mass
     else:
-        planes = [(*normal, (1.0 if normal[0] else 0.5) * EDGE - RADIUS) for normal in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))]
-        whole = long = O.bodies[add(yade.ConicPotentialParticle(planes=planes, r=RADIUS, k=0.0, R=2.0), Vector3(1.5 * EDGE - OVERLAP, 0, 0))]
+        planes = [(*normal, (1.0 if normal[0] else 0.5) * EDGE - RADIUS)
+                  for normal in ((1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1))]
+        whole = long = O.bodies[add(yade.ConicPotentialParticle(planes=planes, r=RADIUS, k=0.0, R=2.0),
+                                    Vector3(1.5 * EDGE - OVERLAP, 0, 0))]
     run(1)
     set_moving(whole, (0, 0.05, 0), (0.2, 0, 0))
     run(1500)
@@ -347,9 +377,11 @@ for one, other in zip(*ends):
     # The members of a clump have the velocity that the script gave it after a step only, and dashpots with them.
     check.close(other, one, 2e-3 * max(one.norm(), 1e-2), "a clump of two blocks moves as one block")
 
-# --- cohesion of a patch that is not bonded -------------------------------------------------------------------------------
+# --- cohesion of a patch that is not bonded
+# -------------------------------------------------------------------------------
 
-scene(bonds=False, cohesion=STRENGTH, residualCohesion=0.0, frictionAngle=math.atan(FRICTION), residualFrictionAngle=math.atan(0.2))
+scene(bonds=False, cohesion=STRENGTH, residualCohesion=0.0, frictionAngle=math.atan(FRICTION),
+      residualFrictionAngle=math.atan(0.2))
 lower, upper = block((0, 0, 0), fixed=True), block((0, 0, EDGE - 1e-4))
 upper.state.blockedDOFs = "xyzXYZ"
 upper.state.vel = Vector3(5e-2, 0, 0)
@@ -372,7 +404,8 @@ most = STRENGTH * geom.contactArea + friction
 turning = STRENGTH * 2 * math.sqrt(2) / 3 * math.sqrt(geom.contactArea * geom.polarMoment) + friction * geom.twistLever
 check.close((phys.shearForce.norm() / most)**2 + (phys.twistMoment / turning)**2, 1.0, 1e-9, "on the ellipse")
 
-# --- time step, loop, threads, saves ----------------------------------------------------------------------------------------
+# --- time step, loop, threads, saves
+# ----------------------------------------------------------------------------------------
 
 bodies = column(number=2, fixed=False)
 bodies[0].state.blockedDOFs = "xyzXYZ"
@@ -381,7 +414,8 @@ mass, inertia = bodies[1].state.mass, bodies[1].state.inertia[0]
 # A block on a fixed one: shear with bending, the stiffest mode of the two.
 arm = 0.5 * EDGE
 stiff = [[SHEAR * AREA, SHEAR * AREA * arm], [SHEAR * AREA * arm, SHEAR * AREA * arm**2 + NORMAL * SECOND]]
-trace, product = stiff[0][0] / mass + stiff[1][1] / inertia, (stiff[0][0] * stiff[1][1] - stiff[0][1]**2) / (mass * inertia)
+trace, product = stiff[0][0] / mass + stiff[1][1] / inertia, (stiff[0][0] * stiff[1][1] - stiff[0][1]**2) / (mass
+                                                                                                             * inertia)
 highest = max(0.5 * trace + math.sqrt(0.25 * trace**2 - product), NORMAL * AREA / mass)
 check.true(0.5 < step / (2 / math.sqrt(highest)) < 1, f"time step {step} against {2 / math.sqrt(highest)}")
 
@@ -418,19 +452,28 @@ plain_loop = swinging(yade.InteractionLoop)
 check.equal(swinging(yade.ConicInteractionLoop), plain_loop, "ConicInteractionLoop")
 check.equal(swinging(yade.ConicInteractionLoop, saved=True), plain_loop, "a run goes on from a save as without")
 
-# --- what is refused -----------------------------------------------------------------------------------------------------------
+# --- what is refused
+# -----------------------------------------------------------------------------------------------------------
 
-for name, value in (("cohesion", -1), ("tensileStrength", math.inf), ("residualFrictionAngle", 2), ("softening", -1), ("frictionAngle", 30), ("frictionAngle", -0.1)):
-    check.raises(ValueError, lambda: yade.ConicJointMat(**{name: value}), name, f"{name} = {'inf: it must be finite' if value == math.inf else f'{value}: give'}")
+for name, value in (("cohesion", -1), ("tensileStrength", math.inf), ("residualFrictionAngle", 2), ("softening", -1),
+                    ("frictionAngle", 30), ("frictionAngle", -0.1)):
+    check.raises(ValueError, lambda: yade.ConicJointMat(**{name: value}), name,
+                 f"{name} = {'inf: it must be finite' if value == math.inf else f'{value}: give'}")
 # Set later it is YADE's attribute, which takes any number: the run is refused.
 column()
 O.materials[0].frictionAngle = 30
-check.raises(ValueError, O.step, "degrees", "frictionAngle of ConicJointMat 0 in O.materials = 30: give radians in [0, pi/2)")
+check.raises(ValueError, O.step, "degrees",
+             "frictionAngle of ConicJointMat 0 in O.materials = 30: give radians in [0, pi/2)")
 O.reset()
 O.materials.append(yade.FrictMat(frictionAngle=30))
 block((0, 0, 0))
-check.true(any("frictionAngle=30" in one.what and "radians" in one.remedy for one in potential_particles.check()), "check() finds it in FrictMat, too")
-O.engines = [yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom()], [yade.Ip2_FrictMat_FrictMat_FrictPhys()], [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)])]
-check.raises(ValueError, potential_particles.use_joints, "use_joints in degrees", "frictionAngle = 30: give radians in [0, pi/2)")
+check.true(any("frictionAngle=30" in one.what and "radians" in one.remedy for one in potential_particles.check()),
+           "check() finds it in FrictMat, too")
+O.engines = [
+    yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom()], [yade.Ip2_FrictMat_FrictMat_FrictPhys()],
+                         [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)])
+]
+check.raises(ValueError, potential_particles.use_joints, "use_joints in degrees",
+             "frictionAngle = 30: give radians in [0, pi/2)")
 
 check.finish()

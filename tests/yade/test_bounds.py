@@ -17,8 +17,10 @@ VERLET = 0.05
 def collider(functor_, watch=True, verlet=VERLET):
     """BoundWatch if wanted, the collider, and a look at the scene after it, in each step."""
     watches = [yade.BoundWatch(label="watch")] if watch else []
-    return watches + [yade.InsertionSortCollider([functor_], verletDist=verlet, allowBiggerThanPeriod=True, label="collider"),
-                      yade.PyRunner(command="look()", iterPeriod=1)]
+    return watches + [
+        yade.InsertionSortCollider([functor_], verletDist=verlet, allowBiggerThanPeriod=True, label="collider"),
+        yade.PyRunner(command="look()", iterPeriod=1)
+    ]
 
 
 def engine(label):
@@ -27,8 +29,9 @@ def engine(label):
 
 def prism(width, length, r=0.005, **more):
     sides = [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0)]
-    return yade.ConicPotentialParticle(planes=[(*n, width / 2 - r) for n in sides] + [(0, 0, z, length / 2 - r) for z in (1, -1)],
-                                       r=r, k=0.0, R=length, **more)
+    return yade.ConicPotentialParticle(
+        planes=[(*n, width / 2 - r) for n in sides] + [(0, 0, z, length / 2 - r) for z in (1, -1)], r=r, k=0.0,
+        R=length, **more)
 
 
 # --- a needle that falls over about its centre ---------------------------------------------------
@@ -50,10 +53,11 @@ def tip(functor_, watch):
 
 
 print(f"YADE's own boxes: contacts of the needle that are found: {tip(yade.PotentialParticle2AABB(), watch=False)[0]}")
-for functor_, watch in ((yade.Bo1_ConicPP_Aabb(), True), (yade.Bo1_PP_Aabb_Conic(), True), (yade.PotentialParticle2AABB(), True),
-                        (yade.Bo1_ConicPP_Aabb(), False)):
+for functor_, watch in ((yade.Bo1_ConicPP_Aabb(), True), (yade.Bo1_PP_Aabb_Conic(), True),
+                        (yade.PotentialParticle2AABB(), True), (yade.Bo1_ConicPP_Aabb(), False)):
     found, runs = tip(functor_, watch)
-    check.true(found > 0, f"{type(functor_).__name__}, {'with' if watch else 'without'} BoundWatch: the contact is found")
+    check.true(found > 0,
+               f"{type(functor_).__name__}, {'with' if watch else 'without'} BoundWatch: the contact is found")
     if not isinstance(functor_, yade.PotentialParticle2AABB):  # by which YADE does not widen what only turns
         check.true(runs < 400, f"and the collider rests: {runs} runs in 1700 steps")
 
@@ -134,7 +138,8 @@ def shake(functor_, watch, seed, jumps=True, size=None, shear=0.0, rate=0.0, ste
     for _ in range(24):
         shape = prism(0.05, 0.3 + 0.5 * motion.random.random())
         given = plain_of(shape) if plain_shapes else shape
-        body = add(given, motion.vector(0.6), turned(motion.vector(1), 3 * motion.random.random()), volume=1, inertia=Vector3(1, 1, 1))
+        body = add(given, motion.vector(0.6), turned(motion.vector(1), 3 * motion.random.random()), volume=1,
+                   inertia=Vector3(1, 1, 1))
         motion.ends[body] = ends(shape)
     run(steps)
     return motion
@@ -154,9 +159,12 @@ for seed in (1, 2):
         kept = shake(functor_, True, seed)
         check.true(kept.met > 1000, f"boxes meet: {kept.met} times")
         check.equal(kept.missed, 0, f"{type(functor_).__name__}, seed {seed}: pairs missed")
-        check.true(engine("collider").numAction < O.iter, f"the collider rests: {engine('collider').numAction} runs in {O.iter} steps")
+        check.true(
+            engine("collider").numAction < O.iter,
+            f"the collider rests: {engine('collider').numAction} runs in {O.iter} steps")
         check.true(0 < engine("watch").requests < O.iter, f"and is asked to run: {engine('watch').requests} times")
-check.equal(shake(yade.Bo1_PP_Aabb_Conic(), True, 3, plain_shapes=True).missed, 0, "plain shapes with boxes: pairs missed")
+check.equal(
+    shake(yade.Bo1_PP_Aabb_Conic(), True, 3, plain_shapes=True).missed, 0, "plain shapes with boxes: pairs missed")
 # Without a watch, the box of all turns: right for any motion that YADE integrates.
 kept = shake(yade.Bo1_ConicPP_Aabb(), False, 4, jumps=False)
 check.true(kept.met > 1000 and kept.missed == 0, f"without BoundWatch: {kept.missed} of {kept.met} missed")
@@ -176,11 +184,14 @@ with tempfile.TemporaryDirectory() as folder:
         name = os.path.join(folder, "scene." + ending)
         O.save(name)
         O.load(name)
-        check.equal([type(e).__name__ for e in O.engines[2:4]], ["BoundWatch", "InsertionSortCollider"], f"{ending}: engines")
-        check.equal(type(engine("collider").boundDispatcher.functors[0]).__name__, "Bo1_ConicPP_Aabb", f"{ending}: functor")
+        check.equal([type(e).__name__ for e in O.engines[2:4]], ["BoundWatch", "InsertionSortCollider"],
+                    f"{ending}: engines")
+        check.equal(
+            type(engine("collider").boundDispatcher.functors[0]).__name__, "Bo1_ConicPP_Aabb", f"{ending}: functor")
         motion.met = motion.missed = 0
         run(100)
-        check.true(motion.met > 200 and motion.missed == 0, f"{ending}: {motion.missed} of {motion.met} missed after loading")
+        check.true(motion.met > 200 and motion.missed == 0,
+                   f"{ending}: {motion.missed} of {motion.met} missed after loading")
 
 # --- the boxes themselves ----------------------------------------------------------------------------
 
@@ -214,7 +225,8 @@ for make in (cube, pyramid, lambda: prism(0.1, 1.0)):
     exact = lower, upper
     lower, upper, body = bound(make(), watch=False, verlet=0.125)
     for i in range(3):
-        check.close(upper[i] - lower[i], 2 * (body.shape.boundingRadius + 0.125), 1e-12, "without BoundWatch: of all turns, and widened")
+        check.close(upper[i] - lower[i], 2 * (body.shape.boundingRadius + 0.125), 1e-12,
+                    "without BoundWatch: of all turns, and widened")
     lower, upper, body = bound(make(), verlet=0.125)
     for found, expected, sign in zip((lower, upper), exact, (-1, 1)):
         check.close(found, expected + sign * 0.125 * Vector3(1, 1, 1), 1e-12, "with verletDist: widened by it")
@@ -227,7 +239,8 @@ for shape in (cube(AabbMinMax=True, vertices=given), cube(AabbMinMax=True, verti
         check.close(found, expected, 1e-12, "a box that the script gave is kept")
     lower, upper, body = bound(shape, watch=False)
     check.close(upper[0] - 5, math.sqrt(14), 1e-12, "and turned in all ways without BoundWatch")
-slab = plain(cube_planes(), r=0.05, k=0.05, R=0.9, AabbMinMax=True, minAabbRotated=(3, 2, 1), maxAabbRotated=(3, 2, 0.5))
+slab = plain(cube_planes(), r=0.05, k=0.05, R=0.9, AabbMinMax=True, minAabbRotated=(3, 2, 1),
+             maxAabbRotated=(3, 2, 0.5))
 lower, upper, body = bound(slab, orientation=Quaternion.Identity)
 check.close(lower, Vector3(2, 4, 6), 1e-12, "by its lengths: below")
 check.close(upper, Vector3(8, 8, 7.5), 1e-12, "by its lengths: above")
@@ -235,7 +248,8 @@ bare = plain(cube_planes(), r=0.05, k=0.05, R=0.9)
 lower, upper, body = bound(bare, orientation=Quaternion.Identity)
 check.close(upper, Vector3(5.5, 6.5, 7.5), 3e-3, "a plain shape without a box: the library's")
 
-# A shape keeps the functor that served it first. What counts is the scene that steps, not the one of which that functor knows.
+# A shape keeps the functor that served it first. What counts is the scene that steps, not the one of which that functor
+# knows.
 shared = cube()
 _, of_all_turns, _ = bound(shared, watch=False, orientation=Quaternion.Identity)
 O.switchToScene(O.addScene())

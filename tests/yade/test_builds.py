@@ -18,7 +18,8 @@ table = builds.tested_builds()
 check.true(len(table) >= 3, f"tested builds: {table}")
 for build in table:
     check.true(re.fullmatch(r"\d{4}-\d\d-\d\d", build.tested), f"a date: {build}")
-check.equal(table, builds.tested_builds(os.path.join(TOP, "yade-glue", "tested_builds.txt")), "the package has the table as it is")
+check.equal(table, builds.tested_builds(os.path.join(TOP, "yade-glue", "tested_builds.txt")),
+            "the package has the table as it is")
 
 # README has the same rows.
 rows = [[cell.strip() for cell in line.strip().strip("|").split("|")] for line in open(os.path.join(TOP, "README.md"))
@@ -53,8 +54,9 @@ def said_at_import(pretended):
     """Lines about us that a process prints when it imports the package under a YADE that calls itself so."""
     program = ("import sys; sys.path.insert(0, %r); import yade, yade.config; yade.config.version = %r; "
                "import potential_particles; print(ConicPotentialParticle(k=1.0, R=2.0).boundingRadius)")
-    done = subprocess.run([sys.executable, "-c", program % (os.path.dirname(os.path.dirname(yade.__file__)), pretended)],
-                          capture_output=True, text=True, env=dict(os.environ, PYTHONPATH=os.environ["PP_PACKAGE"]))
+    done = subprocess.run(
+        [sys.executable, "-c", program % (os.path.dirname(os.path.dirname(yade.__file__)), pretended)],
+        capture_output=True, text=True, env=dict(os.environ, PYTHONPATH=os.environ["PP_PACKAGE"]))
     check.equal(done.returncode, 0, f"YADE {pretended}: it loads and works\n{done.stderr[-1000:]}")
     return [line for line in done.stderr.splitlines() if "potential_particles" in line or "Untested" in line]
 
@@ -62,6 +64,7 @@ def said_at_import(pretended):
 known = any((build.yade, build.python) == (version, python) for build in table)
 check.equal(len(said_at_import(version)), 0 if known else 1, f"lines for YADE {version}, Python {python}")
 lines = said_at_import("2099.1.0")
-check.true(len(lines) == 1 and "2099.1.0" in lines[0], f"one line for a YADE that agrees and is not in the table: {lines}")
+check.true(
+    len(lines) == 1 and "2099.1.0" in lines[0], f"one line for a YADE that agrees and is not in the table: {lines}")
 
 check.finish()

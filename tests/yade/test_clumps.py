@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# Clumps of bodies that overlap: mass, centre and inertia of their union, against closed forms and an independent sum; their time step.
+# SPDX-License-Identifier: GPL-3.0-or-later Clumps of bodies that overlap: mass, centre and inertia of their union,
+# against closed forms and an independent sum; their time step.
 import numpy as np
 import potential_particles
 import yade
@@ -34,7 +34,8 @@ across = DENSITY * 2 * (area**2 / (4 * math.pi) + area * (x - D / 2)**2).sum() *
 check.close(Vector3(*sorted(state.inertia)), Vector3(about_axis, across, across), 3e-4 * across, "inertia of two balls")
 axis = state.ori * Vector3(*[float(i == min(state.inertia)) for i in state.inertia])
 check.close(abs(axis[0]), 1.0, 1e-4, "whose axis is the line of centres")
-check.equal([O.bodies[i].state.mass for i in (0, 1)], [DENSITY * 4 / 3 * math.pi * R**3] * 2, "members keep their masses")
+check.equal([O.bodies[i].state.mass for i in (0, 1)], [DENSITY * 4 / 3 * math.pi * R**3] * 2,
+            "members keep their masses")
 check.equal(len([b for b in O.bodies]), 3, "two members and their clump")
 
 
@@ -56,8 +57,13 @@ def tensor(state):
 
 start()
 kinds = [shapes.random_rock(1, size=1.0), shapes.cuboid((1.2, 0.4, 0.3)), shapes.random_rock(4, size=0.8)]
-ids = [O.bodies.append(body(kind, position=place, orientation=turn)) for kind, place, turn in
-       zip(kinds, [(0, 0, 0), (0.4, 0.1, 0.2), (0.2, 0.5, -0.1)], [(1, 0, 0, 0), (0.8, 0.4, 0.1, 0.2), (0.5, 0.1, 0.7, 0.3)])]
+ids = [
+    O.bodies.append(body(kind, position=place, orientation=turn))
+    for kind, place, turn in zip(kinds, [(0, 0, 0), (0.4, 0.1, 0.2), (0.2, 0.5, -0.1)], [(1, 0, 0,
+                                                                                          0), (0.8, 0.4, 0.1,
+                                                                                               0.2), (0.5, 0.1, 0.7,
+                                                                                                      0.3)])
+]
 lower, upper = (np.array(list(one)) for one in potential_particles.extrema())
 spacing = (upper - lower) / 110
 axes = [low + (np.arange(110) + 0.5) * step for low, step in zip(lower, spacing)]
@@ -91,7 +97,9 @@ def apart():
 members = [O.bodies[i].state for i in apart()]
 mass = sum(one.mass for one in members)
 centre = sum((one.mass * np.array(one.pos) for one in members), np.zeros(3)) / mass
-inertia = sum(tensor(one) + one.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for one in members for arm in [np.array(one.pos) - centre])
+inertia = sum(
+    tensor(one) + one.mass * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for one in members
+    for arm in [np.array(one.pos) - centre])
 state = O.bodies[potential_particles.clump([0, 1])].state
 check.close(state.mass / mass, 1.0, 1e-12, "mass of bodies apart")
 check.close(state.pos, Vector3(*centre), 1e-9, "their centre")
@@ -106,9 +114,13 @@ O.materials.append(yade.FrictMat(density=2000.0))
 other = O.bodies.append(body(shapes.cuboid((1, 1, 1)), material=1))
 check.raises(ValueError, lambda: potential_particles.clump([other, 0]), "two densities", "density")
 
-# A clump falls and turns as the rigid body that it is: no force, so momentum and energy stay; and its time step is known.
+# A clump falls and turns as the rigid body that it is: no force, so momentum and energy stay; and its time step is
+# known.
 start()
-pair = [O.bodies.append(body(shapes.cuboid((0.3, 0.06, 0.06)))), O.bodies.append(body(shapes.cuboid((0.06, 0.2, 0.06)), position=(0.1, 0.05, 0)))]
+pair = [
+    O.bodies.append(body(shapes.cuboid((0.3, 0.06, 0.06)))),
+    O.bodies.append(body(shapes.cuboid((0.06, 0.2, 0.06)), position=(0.1, 0.05, 0)))
+]
 number = potential_particles.clump(pair)
 O.engines = [yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB()]),
              yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom()], [yade.Ip2_FrictMat_FrictMat_FrictPhys()],
@@ -118,14 +130,18 @@ O.dt = potential_particles.critical_time_step(safety=1.0)
 check.true(0 < O.dt < 0.01, f"time step of a clump: {O.dt}")
 state, k = O.bodies[number].state, 1e7 * O.bodies[pair[0]].shape.boundingRadius
 known = potential_particles.critical_time_step(stiffness=k, safety=1.0)
-check.close(potential_particles.critical_time_step(stiffness=k, safety=1.0, bodies=[pair[1]]), known, 1e-12, "a member stands for its clump")
+check.close(potential_particles.critical_time_step(stiffness=k, safety=1.0, bodies=[pair[1]]), known, 1e-12,
+            "a member stands for its clump")
 single = 2 / math.sqrt(2 * 3 * k / state.mass)
 check.true(0.2 * single < known < single, f"below that without turns: {known}, {single}")
 
 # check() names clumps whose mass or inertia is wrong, and is content with ours.
 def two(make, distance, turn=(1, 0, 0, 0), of_inertia=1.0):
     start()
-    rods = [O.bodies.append(body(shapes.cuboid((0.3, 0.1, 0.1)), position=(distance * i, 0, 0), orientation=turn)) for i in range(2)]
+    rods = [
+        O.bodies.append(body(shapes.cuboid((0.3, 0.1, 0.1)), position=(distance * i, 0, 0), orientation=turn))
+        for i in range(2)
+    ]
     O.bodies[make(rods)].state.inertia *= of_inertia
     return [one for one in potential_particles.check() if "clump" in one.remedy]
 

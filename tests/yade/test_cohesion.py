@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# YADE's laws that hold bodies together, with interactionDistance and rotations: gaps, tension, moments and their limits against closed forms, momentum.
+# SPDX-License-Identifier: GPL-3.0-or-later YADE's laws that hold bodies together, with interactionDistance and
+# rotations: gaps, tension, moments and their limits against closed forms, momentum.
 import numpy as np
 import potential_particles
 import yade
@@ -10,11 +10,14 @@ check = Checks()
 ROCK, CUBE = shapes.random_rock(1, size=1), shapes.cuboid((1, 1, 1))
 
 
-def bonded(shape=CUBE, place=(0, 0, -0.999), adhesion=1e5, gravity=(0, 0, -9.81), damping=0.5, turn=(1, 0, 0, 0), distance=0.0, fixed=True):
+def bonded(shape=CUBE, place=(0, 0, -0.999), adhesion=1e5, gravity=(0, 0, -9.81), damping=0.5, turn=(1, 0, 0, 0),
+           distance=0.0, fixed=True):
     """Two bodies with YADE's law of cohesion and moments, the first fixed; the contact, if there is one."""
     O.reset()
-    O.materials.append(yade.CohFrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0, isCohesive=True, normalCohesion=adhesion,
-                                        shearCohesion=adhesion, momentRotationLaw=True, alphaKr=0.5, alphaKtw=0.5, etaRoll=-1, etaTwist=-1))
+    O.materials.append(
+        yade.CohFrictMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0, isCohesive=True,
+                         normalCohesion=adhesion, shearCohesion=adhesion, momentRotationLaw=True, alphaKr=0.5,
+                         alphaKtw=0.5, etaRoll=-1, etaTwist=-1))
     O.engines = [
         yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB()], verletDist=0.05),
         yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(rotations=True, interactionDistance=distance)],
@@ -35,7 +38,8 @@ def angular_momentum():
     total = Vector3.Zero
     for state in (one.state for one in O.bodies):
         local = state.ori.conjugate() * state.angVel
-        total += state.ori * Vector3(*(i * w for i, w in zip(state.inertia, local))) + state.mass * state.pos.cross(state.vel)
+        total += state.ori * Vector3(*(i * w
+                                       for i, w in zip(state.inertia, local))) + state.mass * state.pos.cross(state.vel)
     return total
 
 
@@ -63,8 +67,8 @@ for share, holds in ((0.98, True), (1.02, False)):
     run(20000)
     check.equal(contact() is not None, holds, f"a weight of {share} of its strength")
 
-# Moments: a torque on the lower one turns it by torque over stiffness, about the normal and across. (Balls: the contact of a face moves to the edge
-# as it tilts, and bears a part.)
+# Moments: a torque on the lower one turns it by torque over stiffness, about the normal and across. (Balls: the contact
+# of a face moves to the edge as it tilts, and bears a part.)
 for axis, name, shape in ((2, "twist", CUBE), (0, "bending", shapes.sphere(0.5))):
     one = bonded(shape, gravity=(0, 0, 0))
     stiffness = one.phys.ktw if axis == 2 else one.phys.kr
@@ -84,7 +88,8 @@ while contact() is None and place[2] < -0.5:
     place += Vector3(0, 0, 0.002)
     one = bonded(ROCK, place, gravity=(0, 0, 0), damping=0.0, turn=(1, 0.1, 0.2, 0.3), fixed=False, adhesion=1e6)
 check.true(contact() is not None, "two rocks touch")
-for state, velocity, spin in zip((b.state for b in O.bodies), (Vector3(0.1, 0.05, 0.1), Vector3(0, 0, -0.1)), (Vector3(0, 0.2, 0), Vector3(0.1, 0, 0.3))):
+for state, velocity, spin in zip((b.state for b in O.bodies), (Vector3(0.1, 0.05, 0.1), Vector3(0, 0, -0.1)),
+                                 (Vector3(0, 0.2, 0), Vector3(0.1, 0, 0.3))):
     state.vel, state.angVel = velocity, spin
     state.angMom = state.ori * Vector3(*(i * w for i, w in zip(state.inertia, state.ori.conjugate() * spin)))
 before, spinning = momentum(), angular_momentum()
@@ -109,7 +114,8 @@ check.close(tilted.geom.penetrationDepth, -0.004, 1e-5, "a gap between turned fa
 # JCFpm holds tension with an interaction distance, too.
 def joined(place, gravity):
     O.reset()
-    O.materials.append(yade.JCFpmMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0, tensileStrength=1e6, cohesion=1e6))
+    O.materials.append(
+        yade.JCFpmMat(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0, tensileStrength=1e6, cohesion=1e6))
     O.engines = [
         yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB()], verletDist=0.05),
         yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(interactionDistance=1e-6)],
@@ -123,10 +129,11 @@ def joined(place, gravity):
 joined((0, 0, -0.9999), (0, 0, -9.81))
 run(40000)
 one, weight = contact(), O.bodies[1].state.mass * 9.81
-check.true(one is not None and abs(one.phys.normalForce[2] / weight - 1) < 0.01, f"JCFpm in tension: {one and one.phys.normalForce}, {weight}")
+check.true(one is not None and abs(one.phys.normalForce[2] / weight - 1) < 0.01,
+           f"JCFpm in tension: {one and one.phys.normalForce}, {weight}")
 
-for settings, words in ((dict(interactionDistance=-1), "interactionDistance"), (dict(patch=True, rotations=True), "patch"),
-                        (dict(patch=True, interactionDistance=0.1), "patch")):
+for settings, words in ((dict(interactionDistance=-1), "interactionDistance"), (dict(
+        patch=True, rotations=True), "patch"), (dict(patch=True, interactionDistance=0.1), "patch")):
     check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(**settings), f"{settings}", words)
 
 check.finish()

@@ -31,7 +31,8 @@ for formulation in ("midway", "closest"):
     check.close(utils.kineticEnergy(), energy, 0.02 * energy, f"{formulation}: energy after the bounce")
     check.close(O.bodies[lower].state.vel[2], -1, 0.02, f"{formulation}: velocity handed over")
     check.equal((contacts.failures, contacts.failureReport), (0, []), f"{formulation}: failures")
-    check.true(contacts.calls == contacts.solved + contacts.answers["carried"] + contacts.rejected, "every call counted once")
+    check.true(contacts.calls == contacts.solved + contacts.answers["carried"] + contacts.rejected,
+               "every call counted once")
 
 # The contact itself, against what is known of two cubes face to face.
 fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-9)

@@ -76,14 +76,19 @@ for body in (first, second):
 check.close(momentum(), Vector3.Zero, 1e-9, "momentum of the mirrored pair")
 check.equal(functor().failures, 0, "failures")
 
-# Force times overlap as a field: what of dF/dx is no gradient, over kn. None between faces; between edges in proportion to the overlap over r.
+# Force times overlap as a field: what of dF/dx is no gradient, over kn. None between faces; between edges in proportion
+# to the overlap over r.
 def no_gradient(formulation, share):
     """Of two rocks in eight directions, with that overlap over r."""
-    fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(formulation=formulation, carryTolerance=0.0), yade.Ip2_FrictMat_FrictMat_FrictPhys(),
-                yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-12)
+    fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(formulation=formulation, carryTolerance=0.0),
+                yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False),
+                dt=1e-12)
     O.engines[1].verletDist = 0.0
     rocks = shapes.random_rock(3, size=1.0), shapes.random_rock(5, size=1.0)
-    O.bodies.append([potential_particles.body(rocks[0], fixed=True), potential_particles.body(rocks[1], fixed=True, orientation=(1, 0.3, 0.2, 0.5))])
+    O.bodies.append([
+        potential_particles.body(rocks[0], fixed=True),
+        potential_particles.body(rocks[1], fixed=True, orientation=(1, 0.3, 0.2, 0.5))
+    ])
     wanted, found = share * rocks[0].r, []
 
     def force(place):
@@ -91,7 +96,8 @@ def no_gradient(formulation, share):
         O.interactions.clear()
         O.step()
         real = [one for one in O.interactions if one.isReal]
-        return (np.array(real[0].phys.normalForce), real[0].geom.penetrationDepth, real[0].phys.kn) if real else (np.zeros(3), 0.0, 1.0)
+        return (np.array(real[0].phys.normalForce), real[0].geom.penetrationDepth,
+                real[0].phys.kn) if real else (np.zeros(3), 0.0, 1.0)
 
     for direction in np.random.default_rng(1).normal(size=(8, 3)):
         direction /= np.linalg.norm(direction)
@@ -100,7 +106,8 @@ def no_gradient(formulation, share):
             middle = 0.5 * (near + far)
             near, far = (middle, far) if force(middle * direction)[1] > wanted else (near, middle)
         _, depth, stiffness = force(near * direction)
-        slopes = [(force(near * direction + h)[0] - force(near * direction - h)[0]) / (2e-3 * depth) for h in 1e-3 * depth * np.eye(3)]
+        slopes = [(force(near * direction + h)[0] - force(near * direction - h)[0]) / (2e-3 * depth)
+                  for h in 1e-3 * depth * np.eye(3)]
         found.append(np.linalg.norm(np.transpose(slopes) - slopes) / 2 / stiffness)
     return np.sort(found)
 

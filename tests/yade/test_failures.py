@@ -30,7 +30,8 @@ check.equal(len(report), 1, "and reported once")
 if report:
     entry = report[0]
     check.equal((entry["id1"], entry["id2"]), (0, 1), "ids in the report")
-    check.true(math.isnan(entry["pose2"][0][1]) and entry["pose2"][0][2] == 0.98, f"pose in the report: {entry['pose2']}")
+    check.true(
+        math.isnan(entry["pose2"][0][1]) and entry["pose2"][0][2] == 0.98, f"pose in the report: {entry['pose2']}")
     check.equal(entry["pose1"], ((0, 0, 0), (1, 0, 0, 0)), "pose of body 1")
     check.true("position" in entry["message"], f"message in the report: {entry['message']}")
 contact = O.interactions[0, 1]

@@ -41,7 +41,8 @@ for overlap in (1e-5, 1e-6):
     O.step()
     force, torque = force_on(body)
     # The rounding adds to the face: a rim of the width sqrt(2 overlap r) whose depth falls to 0.
-    check.true(0 <= force[2] / (STIFFNESS * AREA * overlap) - 1 < 10 * math.sqrt(overlap * RADIUS), f"N = K A overlap: {force}")
+    check.true(0 <= force[2] / (STIFFNESS * AREA * overlap) - 1 < 10 * math.sqrt(overlap * RADIUS),
+               f"N = K A overlap: {force}")
     check.close(torque, Vector3.Zero, 1e-9 * force[2], "no moment")
     check.close(Vector3(force[0], force[1], 0), Vector3.Zero, 1e-9 * force[2], "no force along the wall")
     contact = O.interactions[0, 1]
@@ -53,7 +54,9 @@ for overlap in (1e-5, 1e-6):
     O.step()
     force, torque = force_on(body)
     side = 2 * (HALF - RADIUS)
-    check.true(abs(torque[1] / (-STIFFNESS * side**4 / 12 * tilt) - 1) < 20 * math.sqrt(overlap * RADIUS), f"M = K I tilt: {torque}")
+    check.true(
+        abs(torque[1] / (-STIFFNESS * side**4 / 12 * tilt) - 1) < 20 * math.sqrt(overlap * RADIUS),
+        f"M = K I tilt: {torque}")
     check.close(force[2], straight, 1e-4 * straight, "tilting does not change N")
 
 
@@ -77,7 +80,8 @@ check.true(abs(moment / (0.382598 * 0.5 * weight * side) - 1) < 2e-3, f"moment {
 lost = 0.5 * body.state.inertia[2] * (speed**2 - body.state.angVel[2]**2)
 check.close(O.energy["plastDissip"] - work, lost, 1e-3 * lost, "friction takes the energy of the spin")
 run(8000)
-check.true(abs(body.state.angVel[2]) < 0.02 and not O.interactions[0, 1].phys.isSliding, f"it stops: {body.state.angVel}")
+check.true(
+    abs(body.state.angVel[2]) < 0.02 and not O.interactions[0, 1].phys.isSliding, f"it stops: {body.state.angVel}")
 
 # --- slip and twist together stay on the ellipse --------------------------------------------------------------
 
@@ -89,7 +93,8 @@ body.state.vel, body.state.angVel = Vector3(0.3, 0, 0), Vector3(0, 0, 0.8)
 run(200)
 joint, geom = O.interactions[0, 1].phys, O.interactions[0, 1].geom
 most = 0.5 * joint.normalForce.norm()
-check.close((joint.shearForce.norm() / most)**2 + (joint.twistMoment / (most * geom.twistLever))**2, 1.0, 1e-9, "on the ellipse")
+check.close((joint.shearForce.norm() / most)**2 + (joint.twistMoment / (most * geom.twistLever))**2, 1.0, 1e-9,
+            "on the ellipse")
 check.true(joint.shearForce[0] < 0 and joint.twistMoment < 0, "against the motion")
 # Slip is normal to the ellipse: displacement per turn as F/F_max^2 to M/M_max^2.
 slope = -joint.shearForce[0] * geom.twistLever**2 / -joint.twistMoment
@@ -133,7 +138,8 @@ def energy(bodies):
     total = 0
     for one in bodies:
         spin = one.state.ori.conjugate() * one.state.angVel
-        total += 0.5 * one.state.mass * one.state.vel.squaredNorm() + 0.5 * sum(one.state.inertia[i] * spin[i]**2 for i in range(3))
+        total += 0.5 * one.state.mass * one.state.vel.squaredNorm() + 0.5 * sum(one.state.inertia[i] * spin[i]**2
+                                                                                for i in range(3))
     return total
 
 
@@ -169,15 +175,19 @@ for wanted in (0.9, 0.5, 0.1):
     check.close(body.state.vel[2] / 0.1, wanted, 0.01, "restitution")
     check.close(O.energy["viscDissip"], before - energy([body]), 5e-3 * before, "what the dashpot took")
 
-# --- a block that lands on its face is pushed at the edge that comes down: Housner's impact ------------------------------
+# --- a block that lands on its face is pushed at the edge that comes down: Housner's impact
+# ------------------------------
 
 for ratio, restitution in ((0.5, 0.1), (0.7, 0.03)):
     scene(restitution=restitution, frictionAngle=1.5, track=True)
     wall()
     half, height, spin, radius = 0.5, 1 / ratio, 0.01, 1e-4
-    planes = [(*(sign * (i == axis) for i in range(3)), (half, half, height / 2)[axis] - radius) for axis in range(3) for sign in (1, -1)]
-    body = O.bodies[add(yade.ConicPotentialParticle(planes=planes, r=radius, k=0, R=2 * height), Vector3(0, 0, height / 2 - 1e-9))]
-    body.state.mass, body.state.inertia = height * DENSITY, height * DENSITY / 12 * Vector3(1 + height**2, 1 + height**2, 2)
+    planes = [(*(sign * (i == axis) for i in range(3)), (half, half, height / 2)[axis] - radius) for axis in range(3)
+              for sign in (1, -1)]
+    body = O.bodies[add(yade.ConicPotentialParticle(planes=planes, r=radius, k=0, R=2 * height),
+                        Vector3(0, 0, height / 2 - 1e-9))]
+    body.state.mass, body.state.inertia = height * DENSITY, height * DENSITY / 12 * Vector3(
+        1 + height**2, 1 + height**2, 2)
     # It turns about its edge at x = -half.
     body.state.vel, body.state.angVel = Vector3(spin * height / 2, 0, -spin * half), Vector3(0, spin, 0)
     body.state.angMom = Vector3(0, spin * body.state.inertia[1], 0)
@@ -191,9 +201,11 @@ for ratio, restitution in ((0.5, 0.1), (0.7, 0.03)):
     inertia, velocity = body.state.inertia[1], body.state.vel
     momentum = inertia * body.state.angVel[1] + body.state.mass * (height / 2 * velocity[0] + half * velocity[2])
     kept = momentum / (inertia + body.state.mass * (half**2 + height**2 / 4)) / spin
-    check.close(kept, 1 - 1.5 * math.sin(math.atan(ratio))**2, 2.5e-3, f"Housner's impact, width over height {ratio}, restitution {restitution}")
+    check.close(kept, 1 - 1.5 * math.sin(math.atan(ratio))**2, 2.5e-3,
+                f"Housner's impact, width over height {ratio}, restitution {restitution}")
     lost = before - energy([body])
-    check.close(O.energy["viscDissip"] + O.energy["plastDissip"] + O.energy["patchChange"], lost, 3e-2 * lost, "what the dashpots took")
+    check.close(O.energy["viscDissip"] + O.energy["plastDissip"] + O.energy["patchChange"], lost, 3e-2 * lost,
+                "what the dashpots took")
 
 # --- patches of bodies at rest are carried on ---------------------------------------------------------------------
 
@@ -221,10 +233,14 @@ check.equal(functors[0].patchesCarried, carried, "what is kept of patches is not
 
 # --- what is refused ---------------------------------------------------------------------------------------------
 
-check.raises(ValueError, lambda: yade.ConicJointMat(restitution=0), "restitution", "restitution = 0: it must lie in [0.01, 1]")
-check.raises(ValueError, lambda: yade.ConicJointMat(normalStiffness=-1), "stiffness", "normalStiffness = -1: give a stiffness per area")
-check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patchTolerance=0.2), "tolerance", "patchTolerance = 0.2")
-check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, twoDimension=True), "two dimensions", "choose one of them")
+check.raises(ValueError, lambda: yade.ConicJointMat(restitution=0), "restitution",
+             "restitution = 0: it must lie in [0.01, 1]")
+check.raises(ValueError, lambda: yade.ConicJointMat(normalStiffness=-1), "stiffness",
+             "normalStiffness = -1: give a stiffness per area")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patchTolerance=0.2), "tolerance",
+             "patchTolerance = 0.2")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, twoDimension=True), "two dimensions",
+             "choose one of them")
 scene()
 O.engines[2].geomDispatcher.functors[1].patch = False
 check.raises(ValueError, O.step, "a functor without patch", "give Ig2_Wall_ConicPP_ScGeom the keyword patch=True")
@@ -236,11 +252,14 @@ for normal, contacts in ((Vector3(0, 0, 1), 0), (Vector3.Zero, 1)):
     floor.shape.isBoundary, floor.shape.fixedNormal, floor.shape.boundaryNormal = True, True, normal
     functor = O.engines[2].geomDispatcher.functors[0]
     O.step()
-    check.equal((O.interactions.countReal(), functor.failures), (contacts, 1 - contacts), f"fixedNormal, normal {normal}")
+    check.equal((O.interactions.countReal(), functor.failures), (contacts, 1 - contacts),
+                f"fixedNormal, normal {normal}")
     for found in functor.failureReport:
         check.true(all(part in str(found) for part in ("fixedNormal = True", "patch = False")), f"what failed: {found}")
     told = [str(one) for one in potential_particles.check() if "fixedNormal" in str(one)]
-    check.true(len(told) == 1 - contacts and all("Ig2_ConicPP_ConicPP_ScGeom(patch=True)" in one for one in told), f"check() says so: {told}")
+    check.true(
+        len(told) == 1 - contacts and all("Ig2_ConicPP_ConicPP_ScGeom(patch=True)" in one for one in told),
+        f"check() says so: {told}")
 
 # --- the same with ConicInteractionLoop and after a save ----------------------------------------------------------
 
@@ -262,34 +281,46 @@ def falling(loop, saved=False):
 
 plain_loop = falling(yade.InteractionLoop)
 check.equal(falling(yade.ConicInteractionLoop), plain_loop, "ConicInteractionLoop")
-check.equal(falling(yade.ConicInteractionLoop, saved=True), falling(yade.ConicInteractionLoop, saved=True), "saved runs repeat")
-check.true(max(abs(a - b) for a, b in zip(falling(yade.ConicInteractionLoop, saved=True), plain_loop)) < 1e-6, "a saved run goes on")
+check.equal(falling(yade.ConicInteractionLoop, saved=True), falling(yade.ConicInteractionLoop, saved=True),
+            "saved runs repeat")
+check.true(
+    max(abs(a - b) for a, b in zip(falling(yade.ConicInteractionLoop, saved=True), plain_loop)) < 1e-6,
+    "a saved run goes on")
 
 # --- bodies that touch, and overlap by nothing but rounding -----------------------------------------------------------
 
-for patch, physics, law in ((True, yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(), yade.Law2_ScGeomConicPP_ConicJointPhys()),
-                            (False, yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9, Kshear=1e9), yade.Law2_SCG_KnKsPhys_KnKsLaw())):
+for patch, physics, law in ((True, yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(),
+                             yade.Law2_ScGeomConicPP_ConicJointPhys()),
+                            (False, yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9,
+                                                                        Kshear=1e9), yade.Law2_SCG_KnKsPhys_KnKsLaw())):
     touching = yade.Ig2_ConicPP_ConicPP_ScGeom(patch=patch, calContactArea=True, flatRegularisation=1e-3)
     fresh_scene(touching, physics, law, dt=1e-6)
     if patch:
         O.materials.append(yade.ConicJointMat(normalStiffness=1e9, density=2000.0))
     for size, height in (((40, 4, 1), -0.5), ((1, 1, 1), 0.5)):
-        corners = [(0.5 * x * size[0], 0.5 * y * size[1], 0.5 * z * size[2]) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
-        O.bodies.append(potential_particles.body(shapes.from_vertices(corners, rounding=1e-3, k=0.0), position=(0, 0, height), fixed=True))
+        corners = [(0.5 * x * size[0], 0.5 * y * size[1], 0.5 * z * size[2]) for x in (-1, 1) for y in (-1, 1)
+                   for z in (-1, 1)]
+        O.bodies.append(
+            potential_particles.body(shapes.from_vertices(corners, rounding=1e-3, k=0.0), position=(0, 0, height),
+                                     fixed=True))
     run(3)
     check.equal(touching.failures, 0, f"no failure where bodies just touch, patch={patch}: {touching.failureReport}")
     check.close(O.forces.f(1), Vector3.Zero, 1e-6, "and no force")
 
 # --- in the place of another law --------------------------------------------------------------------------------------
 
-fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-6)
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), yade.Ip2_FrictMat_FrictMat_FrictPhys(),
+            yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False), dt=1e-6)
 lower, upper = (O.bodies[add(cube(r=1e-3, k=0.0), Vector3(0, 0, height), fixed=True)] for height in (0, 1 - 1e-5))
 potential_particles.use_joints(normalStiffness=1e9, restitution=0.5)
 O.step()
 found = O.interactions[0, 1]
-check.true(isinstance(found.phys, yade.ConicJointPhys) and isinstance(lower.mat, yade.ConicJointMat), "use_joints gives bodies and contacts joints")
+check.true(
+    isinstance(found.phys, yade.ConicJointPhys) and isinstance(lower.mat, yade.ConicJointMat),
+    "use_joints gives bodies and contacts joints")
 check.close(found.phys.normalForce[2], 1e9 * 0.998**2 * 1e-5, 10, "with the stiffness that it is given")
-check.equal((lower.mat.density, lower.mat.young, lower.mat.frictionAngle, lower.mat.restitution), (2000.0, 1e7, 0.0, 0.5), "and what the material had")
+check.equal((lower.mat.density, lower.mat.young, lower.mat.frictionAngle, lower.mat.restitution),
+            (2000.0, 1e7, 0.0, 0.5), "and what the material had")
 check.raises(ValueError, potential_particles.use_joints, "contacts of another law", "before the first step")
 O.reset()
 check.raises(ValueError, potential_particles.use_joints, "no engines", "set O.engines first")
@@ -301,8 +332,9 @@ check.raises(ValueError, potential_particles.use_joints, "another material", "El
 
 # What is not finite is refused where it enters, from scripts and from files.
 nan = float("nan")
-for name, value in [("twist", nan), ("shearDisplacement", (nan, 0, 0)), ("bondPoint1", (0, nan, 0)), ("bondTurn1", Quaternion(nan, 0, 0, 0)),
-                    ("bondRim", [1.0, float("inf")]), ("normalStiffness", float("inf"))]:
+for name, value in [("twist", nan), ("shearDisplacement", (nan, 0, 0)), ("bondPoint1", (0, nan, 0)),
+                    ("bondTurn1", Quaternion(nan, 0, 0, 0)), ("bondRim", [1.0, float("inf")]),
+                    ("normalStiffness", float("inf"))]:
     check.raises(ValueError, lambda: yade.ConicJointPhys(**{name: value}), name, f"ConicJointPhys: {name} = ")
     check.raises(ValueError, lambda: setattr(yade.ConicJointPhys(), name, value), name, "it must be finite")
 check.finish()

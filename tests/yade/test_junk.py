@@ -16,9 +16,16 @@ random.seed(int(os.environ.get("SEED", 11)))
 ROUNDS = int(os.environ.get("JUNK", 600))
 nan, inf = float("nan"), float("inf")
 NUMBERS = [0, 1, -1, 0.05, 0.5, 2, nan, inf, -inf, 1e308, -1e308, 5e-324, 1e-160, 1e160, 2**63, 10**400, True]
-THINGS = NUMBERS + [None, "", "midway", "closest", "cone_program", "conic", "fast", "00" * 64, "zz" * 64, b"x", [], (), {}, [None], ["a"], [[]],
-                    object(), Vector3(1, 2, 3), Vector3(nan, 0, 0), Vector3.Zero, Quaternion.Identity, range(5), [1e999] * 6]
-EXPECTED = (ValueError, TypeError, RuntimeError, AttributeError, OverflowError, IndexError, KeyError, AssertionError, StopIteration)
+THINGS = NUMBERS + [
+    None, "", "midway", "closest", "cone_program", "conic", "fast", "00" * 64, "zz" * 64, b"x", [],
+    (), {}, [None], ["a"], [[]],
+    object(),
+    Vector3(1, 2, 3),
+    Vector3(nan, 0, 0), Vector3.Zero, Quaternion.Identity,
+    range(5), [1e999] * 6
+]
+EXPECTED = (ValueError, TypeError, RuntimeError, AttributeError, OverflowError, IndexError, KeyError, AssertionError,
+            StopIteration)
 
 
 def number():
@@ -41,8 +48,10 @@ def anything(depth=0):
 PLAIN_NAMES = ["a", "b", "c", "d", "r", "k", "R", "vertices", "AabbMinMax", "minAabb", "maxAabb", "minAabbRotated",
                "maxAabbRotated", "isBoundary", "fixedNormal", "boundaryNormal"]
 SHAPE_NAMES = PLAIN_NAMES + ["planes", "automaticBox", "volume", "color", "nothing"]
-FUNCTOR_NAMES = ["formulation", "backEnd", "tolerance", "flatRegularisation", "calContactArea", "areaTolerance", "twoDimension",
-                 "twoDdir", "unitWidth2D", "areaStep", "accuracyTol", "measureTime", "answers", "failures"]
+FUNCTOR_NAMES = [
+    "formulation", "backEnd", "tolerance", "flatRegularisation", "calContactArea", "areaTolerance", "twoDimension",
+    "twoDdir", "unitWidth2D", "areaStep", "accuracyTol", "measureTime", "answers", "failures"
+]
 refused = taken = 0
 
 
@@ -84,14 +93,18 @@ for number_ in range(ROUNDS):
     elif roll < 0.45:
         attempt(lambda: shape.updateAttrs({random.choice(names): anything() for _ in range(random.randrange(4))}))
     elif roll < 0.55:
-        attempt(lambda: yade.ConicPotentialParticle(**{random.choice(SHAPE_NAMES): anything() for _ in range(random.randrange(5))}))
+        attempt(lambda: yade.ConicPotentialParticle(
+            **{random.choice(SHAPE_NAMES): anything()
+               for _ in range(random.randrange(5))}))
     elif roll < 0.65:
         attempt(lambda: setattr(contacts, random.choice(FUNCTOR_NAMES), anything()))
     elif roll < 0.7:
-        attempt(lambda: yade.ScGeomConicPP(**{random.choice(["memory", "normal", "penetrationDepth", "refR1"]): anything()}))
+        attempt(lambda: yade.ScGeomConicPP(
+            **{random.choice(["memory", "normal", "penetrationDepth", "refR1"]): anything()}))
     elif roll < 0.75 and len(O.interactions):
         pair = random.choice(list(O.interactions))
-        attempt(lambda: setattr(pair.geom, random.choice(["memory", "normal", "contactPoint", "penetrationDepth"]), anything()))
+        attempt(lambda: setattr(pair.geom, random.choice(["memory", "normal", "contactPoint", "penetrationDepth"]),
+                                anything()))
     elif roll < 0.8:
         # Any memory of the right length: it was never made by a solve.
         for pair in O.interactions:
@@ -111,6 +124,7 @@ check.true(refused > ROUNDS / 10 and taken > ROUNDS / 10, f"{refused} refused, {
 # After all that, a sound scene is what it always was.
 scene()
 check.equal(functor().failures, 0, "failures of a sound scene")
-check.true(O.interactions[0, 1].isReal and math.isfinite(O.interactions[0, 1].geom.penetrationDepth), "and it is solved")
+check.true(O.interactions[0, 1].isReal and math.isfinite(O.interactions[0, 1].geom.penetrationDepth),
+           "and it is solved")
 
 check.finish()

@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# What YADE's tools do with potential particles (docs/laboratory.md), check(), and the measures that take the place of YADE's.
+# SPDX-License-Identifier: GPL-3.0-or-later What YADE's tools do with potential particles (docs/laboratory.md), check(),
+# and the measures that take the place of YADE's.
 import contextlib
 import io
 import re
@@ -22,7 +22,8 @@ def findings():
     printed = io.StringIO()
     with contextlib.redirect_stdout(printed):
         found = potential_particles.check()
-    check.equal(printed.getvalue().splitlines(), [f"potential_particles: {one.what}: {one.remedy}" for one in found], "a line for each finding")
+    check.equal(printed.getvalue().splitlines(), [f"potential_particles: {one.what}: {one.remedy}" for one in found],
+                "a line for each finding")
     return [str(one) for one in found]
 
 
@@ -107,7 +108,8 @@ finds(1, "body 1", "aspherical=True")
 
 
 
-# All of it is told by the first step, once, whether or not check() was asked; overlaps by the end of it, when they are known.
+# All of it is told by the first step, once, whether or not check() was asked; overlaps by the end of it, when they are
+# known.
 def small_step():
     O.dt *= 1e-3
 
@@ -117,16 +119,21 @@ def told_once(change, *parts):
     change()
     small_step()
     lines = told(O.step)
-    check.true(len(lines) == 1 and all(part in lines[0] for part in parts) and "\n" not in lines[0], f"{parts} told in {lines}")
+    check.true(
+        len(lines) == 1 and all(part in lines[0] for part in parts) and "\n" not in lines[0],
+        f"{parts} told in {lines}")
     check.equal(told(lambda: (O.step(), run(3))), [], f"{parts} told once")
 
 
-told_once(lambda: setattr(O.engines[1].boundDispatcher, "functors", [yade.PotentialParticle2AABB()]), "Facet (1)", "Bo1_Facet_Aabb()")
-told_once(lambda: setattr(O.engines[2].geomDispatcher, "functors", [yade.Ig2_ConicPP_ConicPP_ScGeom()]), "Ig2_Facet_ConicPP_ScGeom()")
+told_once(lambda: setattr(O.engines[1].boundDispatcher, "functors", [yade.PotentialParticle2AABB()]), "Facet (1)",
+          "Bo1_Facet_Aabb()")
+told_once(lambda: setattr(O.engines[2].geomDispatcher, "functors", [yade.Ig2_ConicPP_ConicPP_ScGeom()]),
+          "Ig2_Facet_ConicPP_ScGeom()")
 told_once(lambda: setattr(O.engines[2].lawDispatcher.functors[0], "sphericalBodies", True), "sphericalBodies=False")
 told_once(lambda: setattr(O.bodies[0].state, "pos", Vector3(0, 0, 0.43)), "overlap by 1.4 of the rounding radius")
 told_once(lambda: setattr(O, "dt", 2.1e3 * potential_particles.critical_time_step()), "O.dt=", "critical_time_step()")
-told_once(lambda: setattr(O.bodies[0].state, "mass", 1.02 * O.bodies[0].state.mass), "the mass is not volume times density")
+told_once(lambda: setattr(O.bodies[0].state, "mass", 1.02 * O.bodies[0].state.mass),
+          "the mass is not volume times density")
 told_once(lambda: setattr(O.engines[-1], "exactAsphericalRot", False), "exactAsphericalRot=True")
 
 
@@ -137,7 +144,8 @@ def apart_with_a_stepper(**keywords):
 
 right_scene()
 apart_with_a_stepper()
-check.true(any("defaultDt=potential_particles.critical_time_step()" in one for one in told(O.step)), "a stepper without a contact")
+check.true(any("defaultDt=potential_particles.critical_time_step()" in one for one in told(O.step)),
+           "a stepper without a contact")
 # Right scenes say nothing: at the start, with the first contacts, when bodies come; nor do scenes without these bodies.
 right_scene()
 check.equal(told(lambda: (O.step(), run(20), O.step())), [], "a right scene is stepped in silence")
@@ -171,7 +179,8 @@ for change in larger_shape, larger_planes, larger_rounding:
     check.equal(told(O.step), [], "before the change")
     change()
     lines = told(lambda: O.step())
-    check.true(any("body 0: the mass is not volume times density" in one for one in lines), f"{change.__name__}: {lines}")
+    check.true(any("body 0: the mass is not volume times density" in one for one in lines),
+               f"{change.__name__}: {lines}")
     right_scene()
     small_step()
     O.step()
@@ -186,8 +195,11 @@ check.equal(told(O.step), [], "spheres alone")
 
 
 def torque_error(make_physics, make_law, periodic=False, make_material=None, **functor):
-    """Largest error of the torques of a contact, (torque - arm x force) / |arm||force|, of a corner on a face or, if periodic, across a border."""
-    mixed_scene(functors=[yade.Ig2_ConicPP_ConicPP_ScGeom(**functor)], physics=([make_physics()], [make_law()]), dt=1e-6, friction=0.5, periodic=periodic)
+    """Largest error of the torques of a contact, (torque - arm x force) / |arm||force|, of a corner on a face or, if
+    periodic, across a border.
+    """
+    mixed_scene(functors=[yade.Ig2_ConicPP_ConicPP_ScGeom(**functor)], physics=([make_physics()], [make_law()]),
+                dt=1e-6, friction=0.5, periodic=periodic)
     if make_material:
         O.materials.append(make_material())
     offset = Vector3.Zero
@@ -203,7 +215,8 @@ def torque_error(make_physics, make_law, periodic=False, make_material=None, **f
     contact = next(c for c in O.interactions if c.isReal)
     errors = []
     for one, sign in (contact.id1, 0), (contact.id2, 1):
-        arm = contact.geom.contactPoint - O.bodies[one].state.pos - sign * (O.cell.hSize * contact.cellDist if periodic else Vector3.Zero)
+        arm = contact.geom.contactPoint - O.bodies[one].state.pos - sign * (O.cell.hSize * contact.cellDist
+                                                                            if periodic else Vector3.Zero)
         force = O.forces.f(one)
         errors.append((O.forces.t(one) - arm.cross(force)).norm() / (arm.norm() * force.norm()))
     return max(errors)
@@ -211,23 +224,27 @@ def torque_error(make_physics, make_law, periodic=False, make_material=None, **f
 
 # Laws: wrong torques are found and named, right ones are not. Bodies have moved on by one step of 5e-6 m since.
 frict_mat = lambda kind: lambda: getattr(w, kind)(young=1e7, poisson=0.3, frictionAngle=0.5, density=2000.0)
-cundall = lambda **keywords: (w.Ip2_FrictMat_FrictMat_FrictPhys, lambda: w.Law2_ScGeom_FrictPhys_CundallStrack(**keywords))
+cundall = lambda **keywords: (w.Ip2_FrictMat_FrictMat_FrictPhys, lambda: w.Law2_ScGeom_FrictPhys_CundallStrack(
+    **keywords))
 mindlin = lambda name: (w.Ip2_FrictMat_FrictMat_MindlinPhys, getattr(w, f"Law2_ScGeom_MindlinPhys_{name}"))
 area = lambda: area_physics()[0][0], lambda: area_physics()[1][0]
 bonds = w.Ip2_JCFpmMat_JCFpmMat_JCFpmPhys, w.Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM
 for name, physics, periodic, material, remedy in [
-        ("Cundall", cundall(), False, None, "sphericalBodies=False"),
-        ("Cundall in a cell", cundall(), True, None, "sphericalBodies=False"),
-        ("Cundall without spheres", cundall(sphericalBodies=False), False, None, None),
-        ("Cundall without spheres in a cell", cundall(sphericalBodies=False), True, None, None),
-        ("Mindlin", mindlin("Mindlin"), False, None, None),
-        ("Mindlin in a cell", mindlin("Mindlin"), True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
-        ("linear shear", mindlin("HertzWithLinearShear"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
-        ("Deresiewicz", mindlin("MindlinDeresiewitz"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
-        ("linear shear in a cell", mindlin("HertzWithLinearShear"), True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
-        ("KnKs, Law2_SCG_KnKsPhys_KnKsLaw", area, False, None, None),
-        ("KnKs in a cell", area, True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
-        ("JCFpm", bonds, False, frict_mat("JCFpmMat"), "ConicJointMat")]:
+    ("Cundall", cundall(), False, None, "sphericalBodies=False"),
+    ("Cundall in a cell", cundall(), True, None, "sphericalBodies=False"),
+    ("Cundall without spheres", cundall(sphericalBodies=False), False, None, None),
+    ("Cundall without spheres in a cell", cundall(sphericalBodies=False), True, None, None),
+    ("Mindlin", mindlin("Mindlin"), False, None, None),
+    ("Mindlin in a cell", mindlin("Mindlin"), True, None,
+     "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
+    ("linear shear", mindlin("HertzWithLinearShear"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
+    ("Deresiewicz", mindlin("MindlinDeresiewitz"), False, None, "use Law2_ScGeom_MindlinPhys_Mindlin"),
+    ("linear shear in a cell", mindlin("HertzWithLinearShear"), True, None,
+     "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
+    ("KnKs, Law2_SCG_KnKsPhys_KnKsLaw", area, False, None, None),
+    ("KnKs in a cell", area, True, None, "use Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"),
+    ("JCFpm", bonds, False, frict_mat("JCFpmMat"), "ConicJointMat")
+]:
     error = torque_error(*physics, periodic, material)
     print(f"{name}: torques off by {error:.2g}")
     # What a law of YADE does wrong is not asked for: it may be mended.
@@ -245,7 +262,10 @@ O.engines[2].lawDispatcher.functors = [moments[1]()]
 finds(1, "Law2_ScGeom6D_CohFrictPhys_CohesionMoment asks for a geometry with bending and twist", "rotations=True")
 # A law that serves spheres alone, beside the right one.
 right_scene()
-O.engines[2].lawDispatcher.functors = [*O.engines[2].lawDispatcher.functors, w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()]
+O.engines[2].lawDispatcher.functors = [
+    *O.engines[2].lawDispatcher.functors,
+    w.Law2_ScGeom_MindlinPhys_HertzWithLinearShear()
+]
 check.equal(findings(), [], "a law that these bodies do not meet")
 
 # YADE's stepper takes a step of about a second without contacts; the remedy that is named holds.
@@ -259,7 +279,9 @@ check.true(O.dt <= 1.0001 * O.engines[3].defaultDt, f"whose step is {O.dt}")
 
 
 def pressed(physics=None, number=2, squeeze=1e-3, periodic=False, steps=4000):
-    """number^3 cubes of 1 m pressed together between fixed walls, or in a periodic cell, until they rest; the side of the space that they fill."""
+    """number^3 cubes of 1 m pressed together between fixed walls, or in a periodic cell, until they rest; the side of
+    the space that they fill.
+    """
     side = number * (1.0 - squeeze)
     mixed_scene(physics=physics, damping=0.5, dt=1e-3, periodic=periodic)
     if periodic:
@@ -278,13 +300,15 @@ def pressed(physics=None, number=2, squeeze=1e-3, periodic=False, steps=4000):
 
 
 # Eight cubes between six walls: stress is force by area of the walls, and each direction has a third of the contacts.
-for name, physics in ("Cundall", None), ("KnKs", area_physics()), ("Mindlin", ([w.Ip2_FrictMat_FrictMat_MindlinPhys()], [w.Law2_ScGeom_MindlinPhys_Mindlin()])):
+for name, physics in ("Cundall", None), ("KnKs", area_physics()), ("Mindlin", ([w.Ip2_FrictMat_FrictMat_MindlinPhys()],
+                                                                               [w.Law2_ScGeom_MindlinPhys_Mindlin()])):
     side = pressed(physics)
     walls = [O.forces.f(2 * axis)[axis] for axis in range(3)], [O.forces.f(2 * axis + 1)[axis] for axis in range(3)]
     found = potential_particles.stress(volume=side**3)
     for axis in range(3):
         expected = 0.5 * (walls[0][axis] - walls[1][axis]) / side**2
-        check.true(expected < 0 and abs(found[axis, axis] / expected - 1) < 1e-3, f"{name}: stress along {axis} is {found[axis, axis]}, walls {expected}")
+        check.true(expected < 0 and abs(found[axis, axis] / expected - 1) < 1e-3,
+                   f"{name}: stress along {axis} is {found[axis, axis]}, walls {expected}")
     check.true(abs(found[0, 1]) < 1e-3 * abs(found[0, 0]), f"{name}: no shear")
     bodies = potential_particles.body_stresses()
     check.equal(sorted(bodies), list(range(6, 14)), f"{name}: a stress for each cube")
@@ -292,17 +316,22 @@ for name, physics in ("Cundall", None), ("KnKs", area_physics()), ("Mindlin", ([
     volume = O.bodies[6].shape.volume
     for one, value in bodies.items():
         expected = 0.25 * walls[0][2] * side / 2 / volume
-        check.true(abs(value[2, 2] / -abs(expected) - 1) < 1e-3, f"{name}: stress in body {one} is {value[2, 2]}, {expected}")
+        check.true(
+            abs(value[2, 2] / -abs(expected) - 1) < 1e-3, f"{name}: stress in body {one} is {value[2, 2]}, {expected}")
     fabric = potential_particles.fabric_tensor()
     check.close((fabric - Matrix3.Identity / 3).norm(), 0.0, 1e-9, f"{name}: fabric {fabric}")
     check.equal(potential_particles.coordination_number(), 6.0, f"{name}: three cubes and three walls")
 
 
-# Rocks that fly about between smooth walls: the stress of the walls is that of the contacts and of the forces that accelerate the rocks.
+# Rocks that fly about between smooth walls: the stress of the walls is that of the contacts and of the forces that
+# accelerate the rocks.
 mixed_scene(young=1e6)
 for axis in range(3):
     O.bodies.append([utils.wall(place_, axis=axis, material=-1) for place_ in (-1.0, 1.0)])
-flying = [add(cube(k=1e-2, half=0.47), Vector3(x, y, z) * 0.5, turned((1, 2, 3), 0.1 * x)) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]
+flying = [
+    add(cube(k=1e-2, half=0.47),
+        Vector3(x, y, z) * 0.5, turned((1, 2, 3), 0.1 * x)) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)
+]
 for number, one in enumerate(flying):
     O.bodies[one].state.vel = -0.5 * O.bodies[one].state.pos + Vector3(0.2, 0.1 * number, 0)
 O.dt = potential_particles.critical_time_step()
@@ -312,11 +341,15 @@ for _ in range(60):
     real = [c for c in O.interactions if c.isReal and c.geom.penetrationDepth > 0]
     on_walls = [(c, -1.0 if c.id1 < 6 else 1.0) for c in real if min(c.id1, c.id2) < 6]
     if len(on_walls) > 3 and len(real) > len(on_walls):
-        middle = sum((O.bodies[one].state.pos for one in {i for c in real for i in (c.id1, c.id2) if i > 5}), Vector3.Zero)
+        middle = sum((O.bodies[one].state.pos for one in {i
+                                                          for c in real
+                                                          for i in (c.id1, c.id2) if i > 5}), Vector3.Zero)
         middle /= len({i for c in real for i in (c.id1, c.id2) if i > 5})
-        boundary = sum(((-sign * (c.phys.normalForce + c.phys.shearForce)).outer(c.geom.contactPoint - middle) for c, sign in on_walls), Matrix3.Zero) / 8
+        boundary = sum(((-sign * (c.phys.normalForce + c.phys.shearForce)).outer(c.geom.contactPoint - middle)
+                        for c, sign in on_walls), Matrix3.Zero) / 8
         compared += 1
-        check.close((potential_particles.stress(8, moving=True) - boundary).norm() / boundary.norm(), 0.0, 1e-9, "stress on the walls of what moves")
+        check.close((potential_particles.stress(8, moving=True) - boundary).norm() / boundary.norm(), 0.0, 1e-9,
+                    "stress on the walls of what moves")
         within = max(within, (potential_particles.stress(8) - boundary).norm() / boundary.norm())
 check.true(compared > 5 and within > 0.1, f"{compared} times, while the stress within was up to {within} off")
 
@@ -328,7 +361,8 @@ check.true(any(any(c.cellDist) for c in contacts_), "some across a border")
 found, expected = potential_particles.stress(), -contacts_[0].phys.normalForce.norm() / (side / 3)**2
 check.close((found / expected - Matrix3.Identity).norm(), 0.0, 1e-3, f"stress {found}, {expected}")
 check.close((potential_particles.fabric_tensor() - Matrix3.Identity / 3).norm(), 0.0, 1e-9, "fabric of a cell")
-check.equal((potential_particles.coordination_number(), potential_particles.coordination_number(skip_free=True)), (6.0, 6.0), "contacts of a cube")
+check.equal((potential_particles.coordination_number(), potential_particles.coordination_number(skip_free=True)),
+            (6.0, 6.0), "contacts of a cube")
 check.close(potential_particles.overlap_ratio(), contacts_[0].geom.penetrationDepth / 0.05, 1e-6, "overlap over r")
 check.raises(ValueError, lambda: potential_particles.stress(moving=True), "no walls", "has no walls")
 in_cell = utils.getStress()
@@ -339,25 +373,31 @@ mixed_scene()
 for x in 0.0, 0.999, 1.998, 5.0:
     add(cube(k=1e-4), Vector3(x, 0, 0))
 check.raises(ValueError, potential_particles.fabric_tensor, "no contact yet", "no contact")
-check.equal((potential_particles.overlap_ratio(), potential_particles.coordination_number()), (0.0, 0.0), "no contact yet")
-check.raises(ValueError, lambda: potential_particles.coordination_number(skip_free=True), "none bears a load", "bears a load")
+check.equal((potential_particles.overlap_ratio(), potential_particles.coordination_number()), (0.0, 0.0),
+            "no contact yet")
+check.raises(ValueError, lambda: potential_particles.coordination_number(skip_free=True), "none bears a load",
+             "bears a load")
 check.raises(ValueError, potential_particles.stress, "no volume", "give the volume")
 O.step()
 check.equal(potential_particles.coordination_number(), 1.0, "ends 1, middle 2, free 0")
 check.equal(potential_particles.coordination_number(skip_free=True), 2.0, "the middle one alone bears")
-check.close((potential_particles.fabric_tensor() - Vector3(1, 0, 0).outer(Vector3(1, 0, 0))).norm(), 0.0, 1e-6, "fabric of a row")
+check.close((potential_particles.fabric_tensor() - Vector3(1, 0, 0).outer(Vector3(1, 0, 0))).norm(), 0.0, 1e-6,
+            "fabric of a row")
 check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "overlap of a row")
 O.bodies.erase(2)
-check.equal((potential_particles.coordination_number(), len(potential_particles.measures.contacts())), (2 / 3, 1), "without the contact of a body that is gone")
+check.equal((potential_particles.coordination_number(), len(potential_particles.measures.contacts())), (2 / 3, 1),
+            "without the contact of a body that is gone")
 check.close(potential_particles.overlap_ratio(), 0.001 / 0.05, 2e-3, "the same of the overlap")
 
 
-# YADE's own functions, where docs/laboratory.md calls them right. What the others give is printed: it is undefined, or may be mended.
+# YADE's own functions, where docs/laboratory.md calls them right. What the others give is printed: it is undefined, or
+# may be mended.
 side = pressed(steps=1000)
 truth, of_body = potential_particles.stress(side**3)[0, 0], potential_particles.body_stresses()[6][0, 0]
 check.close(utils.getStress(side**3)[0, 0] / truth, 1.0, 1e-3, "getStress with a volume")
 box = [Vector3(-1, -1, -1), Vector3(3, 3, 3)]
-check.close((utils.fabricTensor(extrema=box)[0] - potential_particles.fabric_tensor()).norm(), 0.0, 1e-9, "fabricTensor(extrema=...)")
+check.close((utils.fabricTensor(extrema=box)[0] - potential_particles.fabric_tensor()).norm(), 0.0, 1e-9,
+            "fabricTensor(extrema=...)")
 check.true(potential_particles.overlap_ratio() > 0, "overlaps, whatever YADE's maxOverlapRatio() says")
 check.true(potential_particles.sampled_porosity((0, 0, 0), (side,) * 3)[0] < 0.05, "where cubes fill the box")
 before = O.bodies[6].shape.planes, O.bodies[6].state.mass
@@ -365,11 +405,14 @@ utils.growParticles(1.1)
 check.equal((O.bodies[6].shape.planes, O.bodies[6].state.mass), before, "growParticles leaves planes and mass")
 for name, value in {
         "getStress()": lambda: utils.getStress()[0, 0], "fabricTensor()": lambda: utils.fabricTensor()[0][0, 0],
-        "avgNumInteractions()": utils.avgNumInteractions, "avgNumInteractions(skipFree=True)": lambda: utils.avgNumInteractions(skipFree=True),
-        "bodyStressTensors() over the true stress": lambda: utils.bodyStressTensors()[6][0, 0] / of_body, "maxOverlapRatio()": utils.maxOverlapRatio,
-        "porosity()": utils.porosity, "voxelPorosity()": lambda: utils.voxelPorosity(50, Vector3(0, 0, 0), Vector3(side, side, side)),
-        "psd()": lambda: utils.psd(bins=3), "getSpheresVolume()": utils.getSpheresVolume, "aabbExtrema()": lambda: utils.aabbExtrema()[0][0],
-        "PWaveTimeStep()": utils.PWaveTimeStep}.items():
+        "avgNumInteractions()": utils.avgNumInteractions,
+        "avgNumInteractions(skipFree=True)": lambda: utils.avgNumInteractions(skipFree=True),
+        "bodyStressTensors() over the true stress": lambda: utils.bodyStressTensors()[6][0, 0] / of_body,
+        "maxOverlapRatio()": utils.maxOverlapRatio, "porosity()": utils.porosity,
+        "voxelPorosity()": lambda: utils.voxelPorosity(50, Vector3(0, 0, 0), Vector3(side, side, side)),
+        "psd()": lambda: utils.psd(bins=3), "getSpheresVolume()": utils.getSpheresVolume,
+        "aabbExtrema()": lambda: utils.aabbExtrema()[0][0], "PWaveTimeStep()": utils.PWaveTimeStep
+}.items():
     print(f"YADE's {name}: {value()}")
 
 
@@ -381,7 +424,8 @@ def loaded(controller, periodic=False, thickness=0.1):
     if periodic:
         O.cell.setBox(side, side, side)
     else:
-        O.bodies.append(utils.aabbWalls([Vector3(0, 0, 0), Vector3(side, side, side)], thickness=thickness, material=-1))
+        O.bodies.append(utils.aabbWalls([Vector3(0, 0, 0), Vector3(side, side, side)], thickness=thickness,
+                                        material=-1))
     for x in range(number):
         for y in range(number):
             for z in range(number):
@@ -398,12 +442,16 @@ inner = potential_particles.stress(press.width * press.height * press.depth)
 for axis, goal in enumerate((-1e4, -1e4, -1e4)):
     check.close(press.stress(2 * axis)[axis] / goal, 1.0, 1e-3, f"stress of the walls along {axis}")
     check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts along {axis}")
-# The controller's own porosity, and voxelPorosityTriaxial, are memory that YADE never writes: nothing can be asked of them.
+# The controller's own porosity, and voxelPorosityTriaxial, are memory that YADE never writes: nothing can be asked of
+# them.
 press = loaded(w.TriaxialStressController(internalCompaction=True, **goals))
 check.true(any("internalCompaction=False" in one for one in told(lambda: run(2000))), "internalCompaction is told")
 loaded(w.TriaxialStressController(internalCompaction=False, **goals), thickness=0)
-check.true(any("6 bodies (0, 1, 2, ...): a Box without thickness" in one for one in told(O.step)), "aabbWalls() without thickness")
-press = loaded(w.PeriTriaxController(goal=(-1e4, -2e4, -1e4), stressMask=7, dynCell=True, mass=2e4, maxStrainRate=(0.1, 0.1, 0.1), globUpdate=5), periodic=True)
+check.true(any("6 bodies (0, 1, 2, ...): a Box without thickness" in one for one in told(O.step)),
+           "aabbWalls() without thickness")
+press = loaded(
+    w.PeriTriaxController(goal=(-1e4, -2e4, -1e4), stressMask=7, dynCell=True, mass=2e4, maxStrainRate=(0.1, 0.1, 0.1),
+                          globUpdate=5), periodic=True)
 check.equal(told(lambda: run(4000)), [], "PeriTriaxController is right")
 inner = potential_particles.stress()
 for axis, goal in enumerate((-1e4, -2e4, -1e4)):
@@ -411,7 +459,9 @@ for axis, goal in enumerate((-1e4, -2e4, -1e4)):
     check.close(inner[axis, axis] / goal, 1.0, 1e-3, f"stress of the contacts in the cell along {axis}")
 
 # O.bodies.clump, and O.save, of which test_clumps.py and test_saving.py have more.
-check.true("O.bodies.clump(" in (TOP / "tests/yade/test_clumps.py").read_text() and "O.save(" in (TOP / "tests/yade/test_saving.py").read_text(), "measured there")
+check.true(
+    "O.bodies.clump(" in (TOP / "tests/yade/test_clumps.py").read_text()
+    and "O.save(" in (TOP / "tests/yade/test_saving.py").read_text(), "measured there")
 
 # An engine that follows stiffness and masses before and after contacts exist, and through a file.
 right_scene()
@@ -442,7 +492,10 @@ check.raises(ValueError, lambda: potential_particles.time_stepper(safety=2), "be
 
 # Each tool of the page's tables is measured above, each law in torque_error.
 page, tested = (TOP / "docs/laboratory.md").read_text(), Path(TOP / "tests/yade/test_laboratory.py").read_text()
-tools = [name for row in page.splitlines() if row.startswith("| `") for name in re.findall(r"`(\w+)", row.split("|")[1])]
+tools = [
+    name for row in page.splitlines() if row.startswith("| `") for name in re.findall(r"`(\w+)",
+                                                                                      row.split("|")[1])
+]
 check.true(len(tools) >= 12, f"tools in the tables: {tools}")
 for name in tools:
     check.true(name.removeprefix("Law2_ScGeom_MindlinPhys_") in tested, f"{name} is measured here")

@@ -37,14 +37,20 @@ def bounce(steps):
     check.true(touched and not touching, "they met and parted")
 
 
-# The first step of a contact: physics do not exist when the functor runs. KnKsPhys then has no area yet, and the law gives no force;
-# with physics that know no area the force is whole at once.
-knks = lambda: (yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e8, ks_i=1e7, Knormal=1e8, Kshear=1e7, useFaceProperties=False,
-                                                    viscousDamping=0.0), yade.Law2_SCG_KnKsPhys_KnKsLaw())
-frict = lambda: (yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False))
+# The first step of a contact: physics do not exist when the functor runs. KnKsPhys then has no area yet, and the law
+# gives no force; with physics that know no area the force is whole at once.
+knks = lambda: (
+    yade.Ip2_FrictMat_FrictMat_KnKsPhys(
+        kn_i=1e8, ks_i=1e7, Knormal=1e8, Kshear=1e7, useFaceProperties=False, viscousDamping=0.0
+    ),
+    yade.Law2_SCG_KnKsPhys_KnKsLaw(),
+)
+frict = lambda: (yade.Ip2_FrictMat_FrictMat_FrictPhys(), yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)
+                 )
 fresh_scene(yade.Ig2_PP_PP_ScGeom_Conic(), *knks(), dt=1e-9)
 for z in (0, 0.9):
-    add(plain(cube_planes(0.5, 0.1), r=0.1, k=0.2, R=0.9), Vector3(0, 0, z), fixed=True, volume=1.0, inertia=Vector3(1, 1, 1))
+    add(plain(cube_planes(0.5, 0.1), r=0.1, k=0.2, R=0.9), Vector3(0, 0, z), fixed=True, volume=1.0,
+        inertia=Vector3(1, 1, 1))
 forces, areas = [], []
 for _ in range(3):
     O.step()
@@ -52,7 +58,8 @@ for _ in range(3):
     areas.append(O.interactions[0, 1].phys.contactArea)
 check.true(areas[1] > 0.5 and areas[2] == areas[1], f"area from the second step on: {areas}")
 check.true(forces[0] < 1e-9 * forces[1], f"next to no force in the first step: {forces}")
-check.close(forces[1] / (1e8 * O.interactions[0, 1].geom.penetrationDepth * areas[1]), 1, 1e-9, "force in the second step")
+check.close(forces[1] / (1e8 * O.interactions[0, 1].geom.penetrationDepth * areas[1]), 1, 1e-9,
+            "force in the second step")
 
 # Areas are computed where physics have a place for them, in contact, when asked; never else.
 for physics, law, contact, gap, areas in [

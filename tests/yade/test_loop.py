@@ -18,13 +18,16 @@ def conic_loop():
     """Puts a ConicInteractionLoop in the place of the scene's loop, and returns it."""
     engines = O.engines
     old = engines[2]
-    engines[2] = yade.ConicInteractionLoop(old.geomDispatcher.functors, old.physDispatcher.functors, old.lawDispatcher.functors)
+    engines[2] = yade.ConicInteractionLoop(old.geomDispatcher.functors, old.physDispatcher.functors,
+                                           old.lawDispatcher.functors)
     O.engines = engines
     return O.engines[2]
 
 
 def one_thread():
-    """By YADE's loop forces are summed in an order of their own by each thread: bits can be compared with one alone, and in the order of ids."""
+    """By YADE's loop forces are summed in an order of their own by each thread: bits can be compared with one alone,
+    and in the order of ids.
+    """
     for engine in O.engines:
         engine.ompThreads = 1
     if type(O.engines[2]) is yade.InteractionLoop:
@@ -47,7 +50,8 @@ def heap(loop, functor_, plain_shapes=False):
         if i % 2:
             shape, planes, more = cube(half=0.3, R=0.5, r=0.04), cube_planes(0.3, 0.04), dict(r=0.04, k=0.05, R=0.5)
         else:
-            shape, planes, more = pyramid(size=0.45, R=0.7, r=0.04), pyramid_planes(0.45, 0.04), dict(r=0.04, k=0.05, R=0.7)
+            shape, planes, more = pyramid(size=0.45, R=0.7, r=0.04), pyramid_planes(0.45,
+                                                                                    0.04), dict(r=0.04, k=0.05, R=0.7)
         volume, inertia = shape.volume, shape.inertia.diagonal()
         add(plain(planes, **more) if plain_shapes else shape, place, turn, volume=volume, inertia=inertia)
     if loop is yade.ConicInteractionLoop:
@@ -93,7 +97,8 @@ for plain_shapes in (True, False):
                 f"{text}: counters")
     check.equal(contacts.answers, usual.answers, f"{text}: answers")
     check.equal(contacts.answers["carried"], 0, f"{text}: none is carried on with carryTolerance=0")
-    check.true(contacts.answers["motion"] > 0.5 * (contacts.calls - contacts.overlapping), f"{text}: most sleep: {contacts.answers}")
+    check.true(contacts.answers["motion"] > 0.5 * (contacts.calls - contacts.overlapping),
+               f"{text}: most sleep: {contacts.answers}")
 
     # Carried on, the same contacts to within what its tolerance allows; what falls on corners is no chaos yet.
     heap(yade.ConicInteractionLoop, some_contact(), plain_shapes)
@@ -101,8 +106,10 @@ for plain_shapes in (True, False):
     check.equal([one[2] for one in carried], [one[2] for one in expected], f"{text}: the same contacts when carried on")
     off = worst_of(carried, expected, 0)
     check.true(0 < off < 1e-5, f"{text}: carried on, motion differs by {off:g}")
-    check.true(contacts.answers["carried"] > 0.5 * contacts.overlapping, f"{text}: most contacts are carried on: {contacts.answers}")
-    check.equal(contacts.answers["carried"] + contacts.rejected + contacts.solved, contacts.calls, f"{text}: every call is one answer")
+    check.true(contacts.answers["carried"] > 0.5 * contacts.overlapping,
+               f"{text}: most contacts are carried on: {contacts.answers}")
+    check.equal(contacts.answers["carried"] + contacts.rejected + contacts.solved, contacts.calls,
+                f"{text}: every call is one answer")
     check.equal(contacts.failures, 0, f"{text}: failures")
     print(f"{text}: carried on, motion differs by {off:g}; {contacts.answers}")
 
@@ -111,13 +118,16 @@ heap(yade.ConicInteractionLoop, some_contact())
 for engine in O.engines:
     engine.ompThreads = -1
 shared, contacts = fallen()
-check.true(shared == carried, f"one thread and {O.numThreads}, to the last bit: motion differs by {worst_of(shared, carried, 0):g}")
-check.equal((contacts.failures, sum(contacts.answers.values())), (0, contacts.calls), "failures, and every call is one answer")
+check.true(shared == carried,
+           f"one thread and {O.numThreads}, to the last bit: motion differs by {worst_of(shared, carried, 0):g}")
+check.equal((contacts.failures, sum(contacts.answers.values())), (0, contacts.calls),
+            "failures, and every call is one answer")
 
 # --- energy and momentum ----------------------------------------------------------------------
 def bouncing(tolerance):
     """Relative change of the energy of two turning cubes that bounce between two fixed ones, and their momentum."""
-    fresh_scene(some_contact(carryTolerance=tolerance), law=yade.Law2_SCG_KnKsPhys_KnKsLaw(neverErase=True), stiffness=1e4)
+    fresh_scene(some_contact(carryTolerance=tolerance), law=yade.Law2_SCG_KnKsPhys_KnKsLaw(neverErase=True),
+                stiffness=1e4)
     for number, (x, fixed) in enumerate([(-0.6, False), (0.6, False), (-1.8, True), (1.8, True)]):
         add(cube(0.1, 0.1, math.sqrt(0.75)), Vector3(x, 0, 0), turned((1, 0, 0), 0.3 * number), fixed, density=1.0)
     conic_loop()
@@ -258,7 +268,9 @@ def above_flat(flat, functor_):
     O.bodies.append(flat)
     add(cube(), Vector3(0, 0, 0.7), fixed=True)
     engines = O.engines
-    engines[1] = yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb()], verletDist=3.0)
+    engines[1] = yade.InsertionSortCollider(
+        [yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(),
+         yade.Bo1_Facet_Aabb()], verletDist=3.0)
     O.engines = engines
     loop = conic_loop()
     run(3)
@@ -266,7 +278,8 @@ def above_flat(flat, functor_):
 
 
 corners = ((-1, -1, 0), (2, -1, 0), (-1, 2, 0))
-for flat, functor_ in (lambda: utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom), (lambda: utils.wall(0, axis=2), yade.Ig2_Wall_ConicPP_ScGeom):
+for flat, functor_ in (lambda: utils.facet(corners, fixed=True),
+                       yade.Ig2_Facet_ConicPP_ScGeom), (lambda: utils.wall(0, axis=2), yade.Ig2_Wall_ConicPP_ScGeom):
     kind = functor_.__name__
     loop = above_flat(flat(), functor_())
     check.equal((touching(), functor().answers["motion"]), (set(), 2), f"{kind}: asleep")
@@ -277,7 +290,8 @@ for flat, functor_ in (lambda: utils.facet(corners, fixed=True), yade.Ig2_Facet_
         boundary.state.pos = start + Vector3(0, 0, height)
         loop()
         depth = [i.geom.penetrationDepth for i in O.interactions if i.isReal]
-        wrong += abs(height - 0.2) > 0.01 and (bool(depth) and depth[0] > 0) != (height > 0.2)  # its face bulges a little
+        wrong += abs(height - 0.2) > 0.01 and (bool(depth) and depth[0] > 0) != (height > 0.2
+                                                                                 )  # its face bulges a little
     check.equal(wrong, 0, f"{kind}: is seen when it moves")
 
 loop = above_flat(utils.facet(corners, fixed=True), yade.Ig2_Facet_ConicPP_ScGeom())
@@ -330,7 +344,8 @@ edge = cube().surfaceDistance([(0, 1, 1)])[0]
 pair(2 * edge + 0.002 - 1)
 O.bodies[0].state.ori, O.bodies[1].state.ori = turned((1, 0, 0), math.pi / 4), turned((0, 1, 0), math.pi / 4)
 run(5)
-check.equal((functor().answers["motion"], O.interactions[0, 1].isReal), (4, False), f"edges that cross sleep: {functor().answers}")
+check.equal((functor().answers["motion"], O.interactions[0, 1].isReal), (4, False),
+            f"edges that cross sleep: {functor().answers}")
 remembered = O.interactions[0, 1].geom.memory
 collide()
 run(2)

@@ -1,6 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# Scenes of potential particles among every shape of YADE that they can touch: energy, walls from an STL file, saving, and no
-# body lost.
+# SPDX-License-Identifier: GPL-3.0-or-later Scenes of potential particles among every shape of YADE that they can touch:
+# energy, walls from an STL file, saving, and no body lost.
 import os
 import random
 import tempfile
@@ -13,16 +12,20 @@ from yade import ymport
 check = Checks()
 folder = tempfile.mkdtemp()
 
-# --- energy ---------------------------------------------------------------------------------
-# A ball and a rounded cube bounce on facets, one on a wall, without friction or damping. The force depends on place alone,
-# so what YADE's steps do to the energy stays bounded.
+# --- energy --------------------------------------------------------------------------------- A ball and a rounded cube
+# bounce on facets, one on a wall, without friction or damping. The force depends on place alone, so what YADE's steps
+# do to the energy stays bounded.
 mixed_scene(dt=2e-5, gravity=(0, 0, -9.81), young=1e6)
 facets(floor(2, 5))
 place(yade.Wall(axis=2), Vector3(0, 0, 0))  # in the plane of the floor, for bodies with another mask
 O.bodies[len(O.bodies) - 1].mask = 2
 for body in O.bodies:
     body.mask = body.mask if body.mask == 2 else 1
-bouncing = [add(ball(0.2), Vector3(-1, 0.1, 0.7)), add(ball(0.2), Vector3(1, 0.1, 0.7)), add(ball(0.2), Vector3(0, 0, 0.7))]
+bouncing = [
+    add(ball(0.2), Vector3(-1, 0.1, 0.7)),
+    add(ball(0.2), Vector3(1, 0.1, 0.7)),
+    add(ball(0.2), Vector3(0, 0, 0.7))
+]
 for number, mask in zip(bouncing, (1, 2, 1)):
     O.bodies[number].mask = mask
 O.bodies[bouncing[2]].state.vel = Vector3(0.3, 0.2, 0)
@@ -47,7 +50,8 @@ check.equal(seen, set(bouncing), "all of them bounce")
 for text, values, first in zip(("on a facet", "on a wall", "over seams"), flying, begun):
     worst = max(abs(value / first - 1) for value in values)
     check.true(worst < 1e-4, f"energy of a ball {text} changes by {worst:.2g}")
-check.close(O.bodies[bouncing[0]].state.pos[2], O.bodies[bouncing[1]].state.pos[2], 1e-9, "a facet is as hard as a wall")
+check.close(O.bodies[bouncing[0]].state.pos[2], O.bodies[bouncing[1]].state.pos[2], 1e-9,
+            "a facet is as hard as a wall")
 check.close(O.bodies[bouncing[2]].state.vel - Vector3(0.3, 0.2, O.bodies[bouncing[2]].state.vel[2]), Vector3.Zero, 1e-9,
             "nothing pushes along the floor")
 
@@ -67,7 +71,8 @@ def open_box(size, height):
     sides = [((-1, -1), (1, -1)), ((1, -1), (1, 1)), ((1, 1), (-1, 1)), ((-1, 1), (-1, -1))]
     triangles = floor(size, 3)
     for (a, b), (c, d) in sides:
-        low, high = [(size * a, size * b, 0), (size * c, size * d, 0)], [(size * a, size * b, height), (size * c, size * d, height)]
+        low, high = [(size * a, size * b, 0), (size * c, size * d, 0)], [(size * a, size * b, height),
+                                                                         (size * c, size * d, height)]
         middle = tuple(0.5 * (p + q) for p, q in zip(low[0], high[1]))
         corners = [low[0], low[1], high[1], high[0]]
         triangles += [(corners[i], corners[(i + 1) % 4], middle) for i in range(4)]
@@ -79,11 +84,18 @@ write_stl(stl, open_box(1.0, 3.0))
 
 
 def heap(loop=None, verlet=0.0):
-    """Rocks, balls and plain particles fall into the box, among spheres and a block, against walls behind the box's own."""
+    """Rocks, balls and plain particles fall into the box, among spheres and a block, against walls behind the box's
+    own.
+    """
     draw = random.Random(3)
-    functors = contacts() + [yade.Ig2_Sphere_Sphere_ScGeom(), yade.Ig2_Facet_Sphere_ScGeom(), yade.Ig2_Wall_Sphere_ScGeom(),
-                             yade.Ig2_Box_Sphere_ScGeom()]
-    mixed_scene(functors, loop=loop, dt=2e-4, gravity=(0, 0, -9.81), friction=0.4, damping=0.3, young=1e6, verlet=verlet)
+    functors = contacts() + [
+        yade.Ig2_Sphere_Sphere_ScGeom(),
+        yade.Ig2_Facet_Sphere_ScGeom(),
+        yade.Ig2_Wall_Sphere_ScGeom(),
+        yade.Ig2_Box_Sphere_ScGeom()
+    ]
+    mixed_scene(functors, loop=loop, dt=2e-4, gravity=(0, 0, -9.81), friction=0.4, damping=0.3, young=1e6,
+                verlet=verlet)
     O.bodies.append(ymport.stl(stl, material=-1))
     place(yade.Box(extents=Vector3(0.3, 0.2, 0.15)), Vector3(0.4, 0.3, 0.15), turned((0, 0, 1), 0.5))
     place(yade.Wall(axis=0, sense=1), Vector3(-0.9, 0, 0))
@@ -100,7 +112,9 @@ def heap(loop=None, verlet=0.0):
         elif i % 4 == 2:
             shape = pyramid(0.03, 0.05, 0.32, 0.22)
             planes = pyramid_planes(0.22, 0.03)
-            moving.append(add(plain(planes, r=0.03, k=0.05, R=0.32), at, turn, volume=shape.volume, inertia=shape.inertia.diagonal()))
+            moving.append(
+                add(plain(planes, r=0.03, k=0.05, R=0.32), at, turn, volume=shape.volume,
+                    inertia=shape.inertia.diagonal()))
         else:
             moving.append(add(ball(0.18), at, turn))
     potential_particles.prepare()
@@ -124,15 +138,20 @@ for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
     name = loop.__name__
     kinds = {tuple(sorted(type(O.bodies[n].shape).__name__ for n in (i.id1, i.id2))) for i in touching()}
     for other in "Sphere", "Facet":
-        check.true(any(other in pair and "ConicPotentialParticle" in pair for pair in kinds), f"{name}: contacts with {other}: {kinds}")
-    outside = [n for n in moving if not all(-1 < O.bodies[n].state.pos[i] < 1 for i in (0, 1)) or not 0 < O.bodies[n].state.pos[2] < 3]
+        check.true(any(other in pair and "ConicPotentialParticle" in pair for pair in kinds),
+                   f"{name}: contacts with {other}: {kinds}")
+    outside = [
+        n for n in moving
+        if not all(-1 < O.bodies[n].state.pos[i] < 1 for i in (0, 1)) or not 0 < O.bodies[n].state.pos[2] < 3
+    ]
     check.equal(outside, [], f"{name}: no body is lost")
     check.true(min(O.bodies[n].state.pos[0] for n in moving) > -0.9 + 0.1, f"{name}: the walls hold")
     check.equal(failures(), 0, f"{name}: no failure")
     # The block's own contacts: something lies on it or leans on it in the course of the run.
     present = {type(body.shape).__name__ for body in O.bodies}
     served = [f.overlapping for f in ours() if f.bases[0] in present]
-    check.true(len(served) >= 5 and all(number > 0 for number in served), f"{name}: every functor has had contacts: {served}")
+    check.true(
+        len(served) >= 5 and all(number > 0 for number in served), f"{name}: every functor has had contacts: {served}")
 
 # --- both loops, step by step, and a scene that was saved in between ------------------------
 ended = []
@@ -155,7 +174,8 @@ for ending in ".yade.gz", ".xml.bz2":
     O.load(file)
     # (The overlap is not in the file: YADE computes that anew in each step.)
     loaded = {(i.id1, i.id2): tuple(i.geom.normal) for i in O.interactions if i.isReal}
-    check.true(all(loaded.get(pair) == normal for pair, (_, normal) in before.items()), f"contacts after loading {ending}")
+    check.true(all(loaded.get(pair) == normal for pair, (_, normal) in before.items()),
+               f"contacts after loading {ending}")
     kinds = [type(f).__name__ for f in ours()]
     check.equal(kinds, [type(f).__name__ for f in contacts()], "functors after loading")
     potential_particles.prepare()

@@ -39,7 +39,8 @@ def test_mesh():
     for shape in (pyramid(), cube(r=1e-6, k=0), plain(pyramid_planes(), r=0.05, k=0.05, R=0.7)):
         mesh = potential_particles.mesh(shape, 1e-2)
         check.true(closed(mesh.triangles), "a mesh is closed")
-        reference = yade.ConicPotentialParticle(planes=list(zip(shape.a, shape.b, shape.c, shape.d)), r=shape.r, k=shape.k, R=shape.R)
+        reference = yade.ConicPotentialParticle(planes=list(zip(shape.a, shape.b, shape.c, shape.d)), r=shape.r,
+                                                k=shape.k, R=shape.R)
         radius = reference.boundingRadius
         check.true(0 < mesh.error <= 1e-2 * radius, "its error is within the tolerance")
         off = max(abs(reference.surfaceDistance([Vector3(*point)])[0] - np.linalg.norm(point)) for point in mesh.points)
@@ -55,7 +56,8 @@ def test_mesh():
     check.true(0 < 1 - volume / shape.volume < 5e-3, f"a Shape has a mesh, of its volume: {volume} and {shape.volume}")
     check.raises(ValueError, lambda: potential_particles.mesh(cube(), 0), "tolerance 0", "[1e-5, 1]")
     check.raises(ValueError, lambda: potential_particles.mesh(cube(), float("nan")), "tolerance nan", "[1e-5, 1]")
-    check.raises(ValueError, lambda: potential_particles.mesh(yade.PotentialParticle(k=2)), "a shape that is none", "k=2")
+    check.raises(ValueError, lambda: potential_particles.mesh(yade.PotentialParticle(k=2)), "a shape that is none",
+                 "k=2")
 
 
 def test_mesh_files():
@@ -63,14 +65,17 @@ def test_mesh_files():
     potential_particles.save_mesh(path("cube.vtp"), made, position=(1, 2, 3))
     found = vtk_files.read(path("cube.vtp"))
     check.true(np.allclose(found["points"], made.points + [1, 2, 3], atol=1e-14), "a .vtp has the points")
-    check.true((found["triangles"] == made.triangles).all() and np.allclose(found["normal"], made.normals), "and the rest")
+    check.true((found["triangles"] == made.triangles).all() and np.allclose(found["normal"], made.normals),
+               "and the rest")
     potential_particles.save_mesh(path("cube.stl"), cube(), 1e-2)
     # 80 bytes of text, the number of triangles, 50 bytes each.
     data = open(path("cube.stl"), "rb").read()
     check.equal((len(data), int(np.frombuffer(data[80:84], np.uint32)[0])),
                 (84 + 50 * len(made.triangles), len(made.triangles)), "size of a .stl")
-    check.raises(ValueError, lambda: potential_particles.save_mesh(path("cube.obj"), cube()), "another ending", ".stl or .vtp")
-    check.raises(OSError, lambda: potential_particles.save_mesh(path("nowhere/cube.stl"), cube()), "no such folder", "nowhere")
+    check.raises(ValueError, lambda: potential_particles.save_mesh(path("cube.obj"), cube()), "another ending",
+                 ".stl or .vtp")
+    check.raises(OSError, lambda: potential_particles.save_mesh(path("nowhere/cube.stl"), cube()), "no such folder",
+                 "nowhere")
     check.true(not [name for name in os.listdir(folder) if name.endswith(".part")], "no unfinished file stays")
 
 
@@ -158,7 +163,9 @@ def seen(image):
 
 
 def test_outline():
-    """The silhouette of an ellipse of a sphere, and of a sharp cube, against rays that meet them; at any place and size."""
+    """The silhouette of an ellipse of a sphere, and of a sharp cube, against rays that meet them; at any place and
+    size.
+    """
     width, height = 300, 240
     for size, middle in ((1.0, np.zeros(3)), (1e-4, np.array([2.0, -1.0, 3.0])), (1e5, np.array([1e8, 0.0, -1e8]))):
         for kind in ("sphere", "cube"):
@@ -180,11 +187,13 @@ def test_outline():
                 with np.errstate(divide="ignore"):
                     bounds = np.sort([(side * size - eye @ turn) / (way @ turn) for side in (-1, 1)], axis=0)
                 hit = bounds[0].max(-1) < bounds[1].min(-1)
-            check.true(hit.mean() > 0.1 and not (seen(image) & ~grown(hit, 2)).any(), f"a {kind} of {size:g}: empty outside its outline")
+            check.true(hit.mean() > 0.1 and not (seen(image) & ~grown(hit, 2)).any(),
+                       f"a {kind} of {size:g}: empty outside its outline")
             inside = ~grown(~hit, 2)
             check.true(seen(image)[inside].all(), f"a {kind} of {size:g}: filled within its outline")
             red = image[inside]
-            check.true((red[:, 0] > 0.2).all() and (red[:, 1:] < 0.02).all(), f"a {kind} of {size:g}: in its colour, {red.mean(0)}")
+            check.true((red[:, 0] > 0.2).all() and (red[:, 1:] < 0.02).all(),
+                       f"a {kind} of {size:g}: in its colour, {red.mean(0)}")
 
 
 def cube_of(size):
@@ -194,11 +203,14 @@ def cube_of(size):
 
 
 def test_light():
-    """A red cube above a floor: where the sun, at (-0.45, -0.55, 1), does not reach, the floor is darker, and nowhere else."""
+    """A red cube above a floor: where the sun, at (-0.45, -0.55, 1), does not reach, the floor is darker, and nowhere
+    else.
+    """
     O.reset()
     O.materials.append(FrictMat())
     add(cube_of(0.5), (0, 0, 1), (1, 0, 0))
-    # Out of the picture, so that the floor on it is all of one colour: that fades with the distance from the bodies' middle.
+    # Out of the picture, so that the floor on it is all of one colour: that fades with the distance from the bodies'
+    # middle.
     for x, y in ((-4, -4), (4, 4)):
         O.bodies.append(utils.sphere((x, y, 1), 0.1, color=(1, 0, 0)))
     O.bodies.append(utils.wall(0.0, axis=2))
@@ -216,7 +228,8 @@ def test_light():
     floor = ~grown(red, 12)
     bright, dark = image[floor & ~grown(shade, 3)], image[floor & ~grown(~shade, 3)]
     check.true(len(bright) > 500 and len(dark) > 500, f"light and shade are seen: {len(bright)} and {len(dark)} pixels")
-    check.true(dark.max() < bright.min() - 0.1, f"shade is darker: up to {dark.max():.2f}, light from {bright.min():.2f}")
+    check.true(dark.max() < bright.min() - 0.1,
+               f"shade is darker: up to {dark.max():.2f}, light from {bright.min():.2f}")
     wide = picture.framing_view(np.array([(x, y, 0.0) for x in (-20, 20) for y in (-20, 20)]), (0, 0, 1), 0.42, 1.0)
     image = picture.render(*triangles, wide, width, height)
     check.true(image[160, 180].max() < 0.97 and image[0].min() > 0.99, "the floor fades into the paper")
@@ -261,7 +274,8 @@ def test_graphics():
 
     ctypes.CDLL = without_egl
     try:
-        check.raises(RuntimeError, lambda: potential_particles.plot(path("none.png")), "no OpenGL", "apt install python3-vtk9 libegl1")
+        check.raises(RuntimeError, lambda: potential_particles.plot(path("none.png")), "no OpenGL",
+                     "apt install python3-vtk9 libegl1")
     finally:
         ctypes.CDLL = load
 
@@ -285,11 +299,13 @@ def test_recorder():
     check.equal(set(bodies["id"]), {*ids.values(), other}, "all bodies are in the frame")
     of = bodies["id"] == ids["pyramid"]
     state = O.bodies[ids["pyramid"]].state
-    check.true(np.allclose(bodies["velocity"][of], state.vel) and np.allclose(bodies["angular_velocity"][of], state.angVel),
-               "with their velocities")
+    check.true(
+        np.allclose(bodies["velocity"][of], state.vel) and np.allclose(bodies["angular_velocity"][of], state.angVel),
+        "with their velocities")
     points = bodies["points"][bodies["triangles"][of]].reshape(-1, 3) - np.array(state.pos)
     local = points @ np.array(state.ori.toRotationMatrix())
-    worst = max(abs(O.bodies[ids["pyramid"]].shape.surfaceDistance([Vector3(*p)])[0] - np.linalg.norm(p)) for p in local[:60])
+    worst = max(
+        abs(O.bodies[ids["pyramid"]].shape.surfaceDistance([Vector3(*p)])[0] - np.linalg.norm(p)) for p in local[:60])
     check.true(worst < 1e-5, f"their points lie on the surface where it is, off by {worst:g}")
     contacts = vtk_files.read(path("frames/run.contacts.0000002.vtp"))
     contact = O.interactions[ids["cube"], other]
@@ -301,8 +317,10 @@ def test_recorder():
     check.equal((contacts["id1"][0], contacts["id2"][0]), (contact.id1, contact.id2), "its bodies")
     chains = vtk_files.read(path("frames/run.chains.0000002.vtp"))
     # Recorded after the step: its contact point and force, the centres as they have moved on.
-    check.true(np.allclose(chains["points"], [O.bodies[i].state.pos for i in (contact.id1, contact.id2)]), "a line between the centres")
-    check.close(chains["push"][0], contact.phys.normalForce.norm(), 1e-6 * contact.phys.normalForce.norm(), "with the force by which they push")
+    check.true(np.allclose(chains["points"], [O.bodies[i].state.pos for i in (contact.id1, contact.id2)]),
+               "a line between the centres")
+    check.close(chains["push"][0], contact.phys.normalForce.norm(), 1e-6 * contact.phys.normalForce.norm(),
+                "with the force by which they push")
     check.equal((chains["id1"][0], chains["id2"][0]), (contact.id1, contact.id2), "of its bodies")
     index = open(path("frames/run.bodies.pvd")).read()
     check.equal(index.count("<DataSet"), 2, "frames of the series")
@@ -322,7 +340,8 @@ def summed(made):
 def joined(bonds=False, periodic=False):
     O.reset()
     O.periodic = periodic
-    material = yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=0.5, density=2000.0, cohesion=1e30, tensileStrength=1e30)
+    material = yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=0.5, density=2000.0,
+                                  cohesion=1e30, tensileStrength=1e30)
     joint_scene(yade.ConicInteractionLoop, material, 0.0, (0, 0, 0), False, 1e-6, bonds=bonds)
     if periodic:
         O.cell.setBox(4, 4, 4)
@@ -342,8 +361,10 @@ def test_patches():
             if under == "wall":
                 O.bodies.append(utils.wall((0, 0, 0), axis=2, sense=1))
             elif under == "facets":
-                O.bodies.append([utils.facet([Vector3(*corner) for corner in corners])
-                                 for corners in (((-9, -9, 0), (9, -9, 0), (9, 9, 0)), ((-9, -9, 0), (9, 9, 0), (-9, 9, 0)))])
+                O.bodies.append([
+                    utils.facet([Vector3(*corner) for corner in corners])
+                    for corners in (((-9, -9, 0), (9, -9, 0), (9, 9, 0)), ((-9, -9, 0), (9, 9, 0), (-9, 9, 0)))
+                ])
             else:
                 block((0, 0, 3.5 if under == "cell" else -0.5))
             upper = block((0, 0, 0.5 - depth), ori=turned((0, 1, 0), tilt))
@@ -355,26 +376,32 @@ def test_patches():
             area, force, centre = summed(made)
             expected = sum(contact.geom.contactArea for contact in contacts)
             pressed = sum(contact.phys.normalForce.norm() for contact in contacts)
-            middle = sum((contact.phys.normalForce.norm() / pressed * contact.geom.contactPoint for contact in contacts), Vector3.Zero)
+            middle = sum((contact.phys.normalForce.norm() / pressed * contact.geom.contactPoint
+                          for contact in contacts), Vector3.Zero)
             case = f"{under}, tilt {tilt:g}"
             check.true(len(contacts) == (2 if under == "facets" else 1), f"{case}: contacts")
             check.true(abs(area / expected - 1) < 1e-3, f"{case}: area of the patch {area}, expected {expected}")
             check.true(abs(force / pressed - 1) < 0.03, f"{case}: its pressure adds up to {force}, expected {pressed}")
             check.true(np.linalg.norm(centre - middle) < 5e-3, f"{case}: about {centre}, expected {middle}")
             largest = max(contact.geom.largestDepth for contact in contacts) * 1e9
-            check.true(0.9 < made.pressure.max() / largest < 1 + 1e-6, f"{case}: largest pressure {made.pressure.max()}, expected {largest}")
+            check.true(0.9 < made.pressure.max() / largest < 1 + 1e-6,
+                       f"{case}: largest pressure {made.pressure.max()}, expected {largest}")
     # Laws that know areas, and a round patch in its plane.
     joined()
     for height in (0.0, 0.999):
         O.bodies[add(yade.ConicPotentialParticle(k=1, R=0.5), (0, 0, height), (1, 1, 1))].dynamic = False
-    O.engines[2] = yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True)],
-                                        [yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9, Kshear=1e9)],
-                                        [yade.Law2_SCG_KnKsPhys_KnKsLaw()])
+    O.engines[2] = yade.InteractionLoop(
+        [yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True)],
+        [yade.Ip2_FrictMat_FrictMat_KnKsPhys(kn_i=1e9, ks_i=1e9, Knormal=1e9, Kshear=1e9)],
+        [yade.Law2_SCG_KnKsPhys_KnKsLaw()])
     run(2)
     contact = O.interactions[0, 1]
     area, force, _ = summed(patches([contact]))
-    check.true(abs(area / contact.geom.contactArea - 1) < 0.01, f"a round patch: {area}, expected {contact.geom.contactArea}")
-    check.true(abs(force / contact.phys.normalForce.norm() - 1) < 0.03, f"its force: {force}, expected {contact.phys.normalForce}")
+    check.true(
+        abs(area / contact.geom.contactArea - 1) < 0.01, f"a round patch: {area}, expected {contact.geom.contactArea}")
+    check.true(
+        abs(force / contact.phys.normalForce.norm() - 1) < 0.03,
+        f"its force: {force}, expected {contact.phys.normalForce}")
     # A bond that is bent and pulled: N/A + M c/I at its edges.
     joined(bonds=True)
     lower, upper = block((0, 0, -0.5)), block((0, 0, 0.5 - 1e-9))
@@ -387,11 +414,14 @@ def test_patches():
     for x in (-0.5, 0.5):
         at = np.abs(made.corners[..., 0] - x) < 2e-3
         expected = -1e9 * (1e-5 - 2e-5 * x)
-        check.true(at.any() and np.allclose(made.pressure[at], expected, atol=0.01 * 1e9 * 1e-5), f"stress of a bond at x = {x}: {made.pressure[at]}, {expected}")
+        check.true(at.any() and np.allclose(made.pressure[at], expected, atol=0.01 * 1e9 * 1e-5),
+                   f"stress of a bond at x = {x}: {made.pressure[at]}, {expected}")
     record = potential_particles.Recorder(path("patches/run"))
     record()
     found = vtk_files.read(path(f"patches/run.patches.{O.iter:07d}.vtp"))
-    check.true(np.allclose(found["pressure"].reshape(-1, 3), made.pressure) and len(found["triangles"]) == len(made.corners), "a frame has the patches")
+    check.true(
+        np.allclose(found["pressure"].reshape(-1, 3), made.pressure) and len(found["triangles"]) == len(made.corners),
+        "a frame has the patches")
     check.equal((set(found["id1"]), set(found["id2"])), ({0}, {1}), "and their bodies")
     check.equal(open(path("patches/run.patches.pvd")).read().count("<DataSet"), 1, "and a series")
 
@@ -405,14 +435,17 @@ def test_picture_of_patches():
     triangles = drawn(list(O.bodies), ShapeMeshes(0.01))[0]
     lengths = np.linalg.norm(np.diff(edges(triangles), axis=1), axis=2)
     check.true((lengths > 0.99).sum() >= 24, f"edges of two cubes: {np.sort(lengths.ravel())}")
-    check.true(len(edges(drawn([O.bodies[O.bodies.append(utils.sphere((9, 9, 9), 1))]], ShapeMeshes(0.01))[0])) == 0, "a sphere has none")
+    check.true(
+        len(edges(drawn([O.bodies[O.bodies.append(utils.sphere((9, 9, 9), 1))]], ShapeMeshes(0.01))[0])) == 0,
+        "a sphere has none")
     O.bodies.erase(2)
     potential_particles.plot(path("patch.png"), size=(400, 300), patches=True)
     image = imread(path("patch.png"))
     check.equal(image.shape[:2], (300, 400), "size of a picture with its scale")
     # Yellow is the largest pressure: the patch lies in the middle, the scale on the right.
     yellow = (image[..., 0] - image[..., 2] > 0.3) & (image[..., 1] > 0.5)
-    check.true(yellow[:, :290].sum() > 500 and yellow[:, 290:].sum() > 20, f"the patch is seen through the cubes: {yellow[:, :290].sum()}")
+    check.true(yellow[:, :290].sum() > 500 and yellow[:, 290:].sum() > 20,
+               f"the patch is seen through the cubes: {yellow[:, :290].sum()}")
     rows = np.nonzero(yellow[:, :290])[0]
     check.true(100 < rows.mean() < 200, f"between them: {rows.mean()}")
 
@@ -427,14 +460,19 @@ def test_picture_of_chains():
     contact = next(one for one in O.interactions if one.isReal)
     corners, forces = chains.tubes([contact])
     check.close(forces[0], contact.phys.normalForce.norm(), 1e-9 * forces[0], "the force of a tube")
-    check.true(corners[..., 2].min() > -1e-3 and abs(corners[..., 2].max() - upper.state.pos[2]) < 1e-3, "from the contact with what does not move to the centre")
+    check.true(corners[..., 2].min() > -1e-3 and abs(corners[..., 2].max() - upper.state.pos[2]) < 1e-3,
+               "from the contact with what does not move to the centre")
     length = corners[..., 2].max() - corners[..., 2].min()
-    check.close(np.hypot(corners[..., 0], corners[..., 1]).max(), chains.WIDEST * length, 1e-6, "its width, of the largest force")
+    check.close(
+        np.hypot(corners[..., 0], corners[..., 1]).max(), chains.WIDEST * length, 1e-6,
+        "its width, of the largest force")
     potential_particles.plot(path("chains.png"), size=(400, 300), chains=True)
     image = imread(path("chains.png"))
     yellow = (image[..., 0] - image[..., 2] > 0.3) & (image[..., 1] > 0.5)
-    check.true(yellow[:, :290].sum() > 100 and yellow[:, 290:].sum() > 20, f"it is seen through the cubes: {yellow[:, :290].sum()}")
-    check.raises(ValueError, lambda: potential_particles.plot(path("both.png"), patches=True, chains=True), "two scales", "two pictures")
+    check.true(yellow[:, :290].sum() > 100 and yellow[:, 290:].sum() > 20,
+               f"it is seen through the cubes: {yellow[:, :290].sum()}")
+    check.raises(ValueError, lambda: potential_particles.plot(path("both.png"), patches=True, chains=True),
+                 "two scales", "two pictures")
 
 
 test_patches()

@@ -13,7 +13,8 @@ from harness import *
 
 check = Checks()
 random.seed(6)
-CALLS, STEPS = 600, 100  # at least so many of both in each hammering; without protection the process was gone sooner, mostly
+# At least so many of both in each hammering; without protection the process was gone sooner, mostly.
+CALLS, STEPS = 600, 100
 
 
 def prism(sides):
@@ -91,14 +92,16 @@ def change_plain(i):
 
 
 hammer(change_plain)
-check.true(all("incomplete" in entry["message"] for entry in functor().failureReport) and len(functor().failureReport) <= 12,
-           f"only unequal lengths are reported, once a pair: {functor().failureReport}")
+check.true(
+    all("incomplete" in entry["message"] for entry in functor().failureReport) and len(functor().failureReport) <= 12,
+    f"only unequal lengths are reported, once a pair: {functor().failureReport}")
 counted = functor().failures
 shape.a = shape.a[:-1]
 settled()
 check.true(functor().failures > counted, "lists of unequal length are counted")
 report = functor().failureReport
-check.true(report and "first body" in report[0]["message"] and "entries" in report[0]["message"], f"and reported: {report[:1]}")
+check.true(report and "first body" in report[0]["message"] and "entries" in report[0]["message"],
+           f"and reported: {report[:1]}")
 shape.updateAttrs(plain_cube().dict())
 counted = functor().failures
 found = settled()
@@ -141,7 +144,8 @@ def drop():
 
 
 builtins.churn = churn
-fresh_scene(yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False), dt=1e-4, damping=0.2, gravity=(0, 0, -9.81), stiffness=1e5)
+fresh_scene(yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False), dt=1e-4, damping=0.2, gravity=(0, 0, -9.81),
+            stiffness=1e5)
 O.engines[1].verletDist = 0
 add(cube(half=4, R=7, isBoundary=True), Vector3(0, 0, -4), fixed=True)
 for _ in range(30):
@@ -160,11 +164,13 @@ potential_particles.protect_runs()  # no more than once
 O.engines = O.engines[:-1]
 stop = O.stopAtIter
 O.run()
-for action, name in [(lambda: O.bodies.erase(1), "O.bodies.erase"), (lambda: O.bodies.append(Body()), "O.bodies.append"),
-                     (lambda: O.bodies.clear(), "O.bodies.clear"), (lambda: O.interactions.clear(), "O.interactions.clear"),
+for action, name in [(lambda: O.bodies.erase(1), "O.bodies.erase"),
+                     (lambda: O.bodies.append(Body()), "O.bodies.append"), (lambda: O.bodies.clear(), "O.bodies.clear"),
+                     (lambda: O.interactions.clear(), "O.interactions.clear"),
                      (lambda: setattr(O.bodies[0], "shape", cube()), "Body.shape")]:
     check.raises(RuntimeError, action, f"{name} during a run", name)
-check.equal(type(utils.sphere((0, 0, 0), 1).shape).__name__, "Sphere", "a body that is in no scene may be given its shape")
+check.equal(
+    type(utils.sphere((0, 0, 0), 1).shape).__name__, "Sphere", "a body that is in no scene may be given its shape")
 heard = []
 
 
@@ -189,6 +195,7 @@ for one in [b.id for b in O.bodies][1:21]:
     while O.iter == step:
         pass
     O.pause()
-check.equal((len([b for b in O.bodies]), O.stopAtIter), (11, stop), "bodies left after a pause for each; O.stopAtIter is as before")
+check.equal((len([b for b in O.bodies]), O.stopAtIter), (11, stop),
+            "bodies left after a pause for each; O.stopAtIter is as before")
 
 check.finish()

@@ -35,7 +35,8 @@ def quiet(*arguments, **keywords):
 
 rocks = [shapes.random_rock(seed, elongation=0.8, flatness=0.7) for seed in range(5)]
 # Off its own centre, so that the frame in which it was built is another than that of the body.
-corner = shapes.from_planes([(1, 0, 0, 1.2), (-1, 0, 0, -0.2), (0, 1, 0, 0.8), (0, -1, 0, 0), (1, 1, 1, 2.2), (0, 0, -1, 0.1)])
+corner = shapes.from_planes([(1, 0, 0, 1.2), (-1, 0, 0, -0.2), (0, 1, 0, 0.8), (0, -1, 0, 0), (1, 1, 1, 2.2),
+                             (0, 0, -1, 0.1)])
 box, cylinder = packing.Box((0, 0, 0), (5, 5, 12)), packing.Cylinder((1, 1, -2), 3.0, 8.0)
 
 # Bodies of a packing do not touch each other, though many are close.
@@ -65,11 +66,15 @@ for container, how in [(box, dict(dense=True)), (cylinder, dict(dense=True)), (b
 # Laid low, the bodies are close to each other: moved down by a hundredth of their size, most touch something.
 scene()
 placements, _ = quiet(box, rocks, sizes=1.0, number=50, dense=True)
-add_packing([one._replace(position=(one.position[0], one.position[1], one.position[2] * 0.97)) for one in placements], 0)
+add_packing([one._replace(position=(one.position[0], one.position[1], one.position[2] * 0.97)) for one in placements],
+            0)
 check.true(touching()[1] > 25, "squeezed, they touch")
 
 # The same seed, the same packing; another seed, another.
-same = [quiet(box, rocks, number=30, dense=True, seed=seed, threads=threads)[0] for seed, threads in [(1, 1), (1, 2), (2, 1)]]
+same = [
+    quiet(box, rocks, number=30, dense=True, seed=seed, threads=threads)[0]
+    for seed, threads in [(1, 1), (1, 2), (2, 1)]
+]
 check.equal(same[0], same[1], "threads make no difference")
 check.true(same[0] != same[2], "seeds do")
 
@@ -135,8 +140,8 @@ def area_normals(triangles):
 
 def open_edges(triangles):
     """Edges that no second triangle has in the opposite direction."""
-    edges = Counter((tuple(round(x, 9) for x in one[i]), tuple(round(x, 9) for x in one[(i + 1) % 3])) for one in triangles
-                    for i in range(3))
+    edges = Counter((tuple(round(x, 9) for x in one[i]), tuple(round(x, 9) for x in one[(i + 1) % 3]))
+                    for one in triangles for i in range(3))
     return [edge for edge, count in edges.items() if edges[edge[::-1]] != count]
 
 
@@ -149,17 +154,21 @@ for facets in (12, 100, 1000):
     check.close(sum(n.norm() for n in normals), 22.0, 1e-9, "its area")
     # The divergence theorem, with normals inwards.
     check.close(sum(-n.dot(one[0]) for n, one in zip(normals, walls)) / 3, 6.0, 1e-9, "its volume")
-check.equal(len(boundaries.box_walls((0, 0, 0), (1, 1, 1), material=utils.defaultMaterial())), 10, "facets of an open box")
+check.equal(len(boundaries.box_walls((0, 0, 0), (1, 1, 1), material=utils.defaultMaterial())), 10,
+            "facets of an open box")
 
-cone = mesh(boundaries.funnel(0.5, 2.0, 3.0, position=(1, 1, 1), sides=64, facets=500, material=utils.defaultMaterial()))
+cone = mesh(boundaries.funnel(0.5, 2.0, 3.0, position=(1, 1, 1), sides=64, facets=500,
+                              material=utils.defaultMaterial()))
 check.close(sum(n.norm() for n in area_normals(cone)), math.pi * 2.5 * math.hypot(1.5, 3), 0.05, "area of a cone")
 check.true(len(cone) >= 500, f"{len(cone)} facets")
 # Open at the outlet and at the mouth alone, where each of the sides has its edges.
 heights = {round(z, 9) for edge in open_edges(cone) for (_, _, z) in edge}
 check.equal(heights, {1.0, 4.0}, "heights of the open edges of a funnel")
-check.true(all(n.dot(Vector3(1, 1, one[0][2]) - one[0]) > 0 for n, one in zip(area_normals(cone), cone)), "normals point inwards")
+check.true(all(n.dot(Vector3(1, 1, one[0][2]) - one[0]) > 0 for n, one in zip(area_normals(cone), cone)),
+           "normals point inwards")
 wedge = mesh(boundaries.funnel((0.0, 1.0), (2.0, 1.0), 1.0, facets=50, material=utils.defaultMaterial()))
-check.close(sum(n.norm() for n in area_normals(wedge)), 2 * math.sqrt(2) + 2 * 1.0, 1e-9, "area of a wedge that is closed below")
+check.close(sum(n.norm() for n in area_normals(wedge)), 2 * math.sqrt(2) + 2 * 1.0, 1e-9,
+            "area of a wedge that is closed below")
 sheet = mesh(boundaries.plate((0, 0, 1), (2, 0, 0), (1, 3, 0), facets=20, material=utils.defaultMaterial()))
 check.close(sum(area_normals(sheet), Vector3.Zero), Vector3(0, 0, 6), 1e-9, "area and normal of a plate")
 fixed = boundaries.plate((0, 0, 0), (1, 0, 0), (0, 1, 0), material=utils.defaultMaterial())

@@ -20,7 +20,12 @@ def across(functor_, positions, size=4.0):
 inside = across(yade.Ig2_ConicPP_ConicPP_ScGeom(), [Vector3(1.5, 2, 2), Vector3(2.49, 2.05, 2)])
 check.equal(len(inside), 1, "one contact inside")
 geom = inside[0].geom
-direct = geom.normal, geom.penetrationDepth, geom.contactPoint - O.bodies[inside[0].id1].state.pos, inside[0].phys.contactArea
+direct = (
+    geom.normal,
+    geom.penetrationDepth,
+    geom.contactPoint - O.bodies[inside[0].id1].state.pos,
+    inside[0].phys.contactArea,
+)
 forces = [O.forces.f(0), O.forces.f(1)]
 check.true(forces[0].norm() > 1, "a force acts inside")
 check.close(forces[0], -forces[1], 1e-9 * forces[0].norm(), "equal and opposite inside")
@@ -73,7 +78,8 @@ across = Vector3(1.7, 0.45, 2), Vector3(2.2, 3.55, 2.05)
 beside = Vector3(1.7, 1.45, 2), Vector3(1.7, 0.55, 2.05)
 mine, theirs = (sheared(kind, *across) for kind in (yade.Ig2_PP_PP_ScGeom_Conic, yade.Ig2_PP_PP_ScGeom))
 direct = sheared(yade.Ig2_PP_PP_ScGeom_Conic, *beside)
-check.equal((mine["cell"], direct["cell"]), ((0, -1, 0), (0, 0, 0)), "once through the border of a sheared cell, once not")
+check.equal((mine["cell"], direct["cell"]), ((0, -1, 0), (0, 0, 0)),
+            "once through the border of a sheared cell, once not")
 for key, tolerance in dict(normal=1e-6, overlap=1e-6, point=1e-6, force=1e-6 * direct["force"].norm()).items():
     check.close(mine[key], direct[key], tolerance, f"sheared cell: {key} through the border and beside")
 for key, tolerance in dict(normal=1e-4, overlap=1e-6, point=1e-4, area=0.01, slip=1e-3 * theirs["slip"].norm(),

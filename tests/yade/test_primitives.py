@@ -46,8 +46,9 @@ def particle(shape, at, turn=Quaternion.Identity, plain_shape=None):
 for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
     for far in Vector3.Zero, Vector3(1e4, -2e4, 3e4):
         away = Vector3(0.6, -0.5, 0.4) * (1.65 / Vector3(0.6, -0.5, 0.4).norm())
-        both_orders(sphere(1.0, far), particle(lambda: ball(0.7), far + away, TURN), 0.05, away.normalized(),
-                    f"two balls, {loop.__name__}", far + away / 1.7, tolerance=1e-11 if far == Vector3.Zero else 1e-10, loop=loop)
+        both_orders(sphere(1.0, far), particle(lambda: ball(0.7), far + away,
+                                               TURN), 0.05, away.normalized(), f"two balls, {loop.__name__}",
+                    far + away / 1.7, tolerance=1e-11 if far == Vector3.Zero else 1e-10, loop=loop)
 contact, _ = pair(sphere(1.0, Vector3.Zero), particle(lambda: ball(0.7), Vector3(1.70001, 0, 0)))
 check.true(contact is None, "balls that are just apart do not touch")
 
@@ -62,10 +63,13 @@ for turn in Quaternion.Identity, TURN:
             out = Vector3(1, 0, 0) if name == "face" else Vector3(1, 1, 0) if name == "edge" else Vector3(1, 1, 1)
             reach = R - 0.01 if name == "face" else R + r - 0.01
             centre = corner + out.normalized() * reach
-            both_orders(cube_, sphere(R, turn * centre), 0.01, turn * out.normalized(), f"sphere on the {name}, {text}", tolerance=2e-9)
-both_orders(particle(None, Vector3.Zero, plain_shape=lambda: plain(cube_planes(0.5, r), r=r, k=0.0, R=1.0, AabbMinMax=True,
-                                                                     minAabbRotated=(0.5,) * 3, maxAabbRotated=(0.5,) * 3)),
-            sphere(R, Vector3(0, 0, 0.89)), 0.01, Vector3(0, 0, 1), "YADE's own PotentialParticle")
+            both_orders(cube_, sphere(R, turn * centre), 0.01, turn * out.normalized(), f"sphere on the {name}, {text}",
+                        tolerance=2e-9)
+both_orders(
+    particle(
+        None, Vector3.Zero, plain_shape=lambda: plain(cube_planes(0.5, r), r=r, k=0.0, R=1.0, AabbMinMax=True,
+                                                      minAabbRotated=(0.5, ) * 3, maxAabbRotated=(0.5, ) * 3)),
+    sphere(R, Vector3(0, 0, 0.89)), 0.01, Vector3(0, 0, 1), "YADE's own PotentialParticle")
 
 # KnKsPhys: the area of the lens is that of its circle, and the points lie on both surfaces.
 mixed_scene(physics=area_physics(), dt=1e-12)
@@ -74,7 +78,8 @@ add(ball(0.7), Vector3(0, 0, 1.6))
 run(2)
 found, = touching()
 half_way = 1.6 / 1.7
-check.close(found.phys.contactArea, math.pi * min(1 - half_way**2, 0.49 - (1.6 - half_way) ** 2), 1e-9, "area of two balls")
+check.close(found.phys.contactArea, math.pi * min(1 - half_way**2, 0.49 - (1.6 - half_way)**2), 1e-9,
+            "area of two balls")
 check.close(found.phys.ptOnP1, Vector3(0, 0, 1), 1e-9, "point on the sphere")
 check.close(found.phys.ptOnP2, Vector3(0, 0, 0.9), 1e-9, "point on the particle")
 check.close(O.forces.f(1)[2], 1e7 * found.phys.contactArea * 0.1, 1e-3, "force = stiffness x area x overlap")
@@ -113,29 +118,36 @@ def rod(at, turn=Quaternion.Identity):
     return lambda: place(yade.Cylinder(radius=ROD, length=SEGMENT.norm(), segment=SEGMENT), at, turn)
 
 
-# Nearest point of the segment, and the way from there to the centre of a ball: on its side, at its ends and beyond them.
+# Nearest point of the segment, and the way from there to the centre of a ball: on its side, at its ends and beyond
+# them.
 for loop in yade.InteractionLoop, yade.ConicInteractionLoop:
     for turn in Quaternion.Identity, TURN:
         for nearest, out, name in ((SEGMENT * 0.3, ACROSS, "side"), (Vector3.Zero, ACROSS, "side at an end"),
                                    (SEGMENT, (AXIS + ACROSS).normalized(), "end"), (Vector3.Zero, -AXIS, "tip")):
-            both_orders(rod(Vector3(1, 2, 3), turn), particle(lambda: ball(0.7), Vector3(1, 2, 3) + turn * (nearest + out * 0.9)), 0.05,
-                        turn * out, f"ball on the {name} of a cylinder", Vector3(1, 2, 3) + turn * (nearest + out * (0.9 * ROD / 0.95)), loop=loop)
+            both_orders(rod(Vector3(1, 2, 3), turn),
+                        particle(lambda: ball(0.7),
+                                 Vector3(1, 2, 3) + turn * (nearest + out * 0.9)), 0.05, turn * out,
+                        f"ball on the {name} of a cylinder",
+                        Vector3(1, 2, 3) + turn * (nearest + out * (0.9 * ROD / 0.95)), loop=loop)
 contact, _ = pair(rod(Vector3.Zero), particle(lambda: ball(0.7), SEGMENT + AXIS * 0.95001))
 check.true(contact is None, "a ball just beyond the end")
 # The nearest points of two segments that cross are known: a particle of the same kind, whose planes are given here.
-other = yade.ConicPotentialParticle(planes=[(1, 0, 0, 2), (-1, 0, 0, 2), (0, 1, 0, 0), (0, -1, 0, 0), (0, 0, 1, 0), (0, 0, -1, 0)], r=0.5, k=0.0)
+other = yade.ConicPotentialParticle(
+    planes=[(1, 0, 0, 2), (-1, 0, 0, 2), (0, 1, 0, 0), (0, -1, 0, 0), (0, 0, 1, 0), (0, 0, -1, 0)], r=0.5, k=0.0)
 across_both = AXIS.cross(Vector3(1, 0, 0)).normalized()
-both_orders(rod(-0.4 * SEGMENT), particle(lambda: other, across_both * 0.7), 0.05, across_both, "two rods that cross", across_both * (0.7 * ROD / 0.75))
+both_orders(rod(-0.4 * SEGMENT), particle(lambda: other, across_both * 0.7), 0.05, across_both, "two rods that cross",
+            across_both * (0.7 * ROD / 0.75))
 # YADE's Cylinder derives from Sphere: in one scene each pair finds its own functor.
 mixed_scene(dt=1e-12)
 for body in (sphere(1.0, Vector3(0, 0, 1.65)), particle(lambda: ball(0.7), Vector3.Zero), rod(-ACROSS * 0.9)):
     body()
 look()
-check.equal(sorted(type(f).__name__ for f in O.engines[2].geomDispatcher.functors if f.overlapping), ["Ig2_Cylinder_ConicPP_ScGeom",
-            "Ig2_Sphere_ConicPP_ScGeom"], "a sphere and a cylinder in one scene")
+check.equal(sorted(type(f).__name__ for f in O.engines[2].geomDispatcher.functors if f.overlapping),
+            ["Ig2_Cylinder_ConicPP_ScGeom", "Ig2_Sphere_ConicPP_ScGeom"], "a sphere and a cylinder in one scene")
 # One without length is a ball, and one that turns about its end within its old bound is seen by the watch.
-both_orders(lambda: place(yade.Cylinder(radius=1.0, length=0.0, segment=(0, 0, 0)), Vector3.Zero), particle(lambda: ball(0.7), Vector3(0, 0, 1.65)), 0.05,
-            Vector3(0, 0, 1), "a cylinder without length", Vector3(0, 0, 1.65 / 1.7))
+both_orders(lambda: place(yade.Cylinder(radius=1.0, length=0.0, segment=(0, 0, 0)), Vector3.Zero),
+            particle(lambda: ball(0.7), Vector3(0, 0, 1.65)), 0.05, Vector3(0, 0, 1), "a cylinder without length",
+            Vector3(0, 0, 1.65 / 1.7))
 contact, ids = pair(rod(Vector3.Zero), particle(lambda: ball(0.7), ACROSS * 0.9))
 watch = yade.BoundWatch()
 O.engines = [O.engines[0], watch] + O.engines[1:]
@@ -168,17 +180,19 @@ for turn in Quaternion.Identity, TURN:
     on_corner = Quaternion.Identity
     on_corner.setFromTwoVectors(Vector3(1, 1, 1).normalized(), Vector3(0, 0, -1))
     reach = (0.5 - r) * math.sqrt(3) + r
-    both_orders(box(Vector3.Zero, turn), particle(lambda: sharp_cube(0.5, r), turn * Vector3(0.05, 0.02, 0.5 + reach - 0.01), turn * on_corner),
+    both_orders(box(Vector3.Zero, turn),
+                particle(lambda: sharp_cube(0.5, r), turn * Vector3(0.05, 0.02, 0.5 + reach - 0.01), turn * on_corner),
                 0.01, turn * Vector3(0, 0, 1), "a corner in a box", tolerance=1e-6)
     # Ball on face, edge and corner.
     for corner, out in (Vector3(0.6, 0.1, 0.2), (1, 0, 0)), (Vector3(0.6, 0.4, 0.1), (1, 1, 0)), (extents, (1, 1, 1)):
         out = Vector3(out).normalized()
-        both_orders(box(Vector3.Zero, turn), particle(lambda: ball(0.3), turn * (corner + 0.29 * out)), 0.01, turn * out,
-                    "a ball on a box", tolerance=2e-6)
+        both_orders(box(Vector3.Zero, turn), particle(lambda: ball(0.3), turn * (corner + 0.29 * out)), 0.01,
+                    turn * out, "a ball on a box", tolerance=2e-6)
     as_box, _ = pair(box(Vector3.Zero, turn), rock)
     as_particle, _ = pair(cuboid(Vector3.Zero, turn), rock)
     for name in "normal", "contactPoint":
-        check.close(getattr(as_box.geom, name), getattr(as_particle.geom, name), 1e-12, f"a box is a cuboid of planes: {name}")
+        check.close(getattr(as_box.geom, name), getattr(as_particle.geom, name), 1e-12,
+                    f"a box is a cuboid of planes: {name}")
     check.close(as_box.geom.penetrationDepth, as_particle.geom.penetrationDepth, 1e-12, "and so is its overlap")
 
 check.finish()

@@ -20,7 +20,9 @@ check = Checks()
 REFERENCE = Path(harness.__file__).resolve().parents[2] / "docs/python.md"
 NAMES = re.findall(r"autoclass:: yade\.wrapper\.(\w+)", REFERENCE.read_text())
 # YADE's own shapes that a potential particle touches.
-OTHERS = [name.split("_")[1] for name in NAMES if name.startswith("Ig2_") and name.split("_")[1] not in ("ConicPP", "PP")]
+OTHERS = [
+    name.split("_")[1] for name in NAMES if name.startswith("Ig2_") and name.split("_")[1] not in ("ConicPP", "PP")
+]
 
 check.equal(sorted(NAMES), sorted(potential_particles._glue.class_names), "every class is in the reference")
 check.true(len(OTHERS) >= 4, f"functors of YADE's shapes: {OTHERS}")
@@ -44,7 +46,8 @@ for name, base in [("ConicPotentialParticle", "PotentialParticle"), ("ConicPoten
                    ("Ig2_PP_PP_ScGeom_Conic", "IGeomFunctor"), ("Bo1_ConicPP_Aabb", "BoundFunctor"),
                    ("Bo1_PP_Aabb_Conic", "BoundFunctor"), ("BoundWatch", "GlobalEngine"),
                    ("ConicInteractionLoop", "InteractionLoop"), ("Ig2_Sphere_ConicPP_ScGeom", "IGeomFunctor"),
-                   ("Ig2_Facet_ConicPP_ScGeom", "Ig2_ConicPP_ConicPP_ScGeom"), ("Gl1_PotentialParticle_Conic", "GlShapeFunctor")]:
+                   ("Ig2_Facet_ConicPP_ScGeom", "Ig2_ConicPP_ConicPP_ScGeom"),
+                   ("Gl1_PotentialParticle_Conic", "GlShapeFunctor")]:
     check.true(name in yade.system.childClasses(base), f"childClasses({base}) has {name}")
     check.true(issubclass(getattr(yade, name), getattr(yade, base)), f"{name} is a {base}")
 
@@ -82,9 +85,9 @@ check.equal(from_plain.planes, cube().planes, "from the dict of a plain shape")
 check.equal(from_plain.vertices, cube().vertices, "which gets a box, having had none")
 
 # Functor and geometry.
-keywords = dict(formulation="closest", backEnd="cone_program", tolerance=1e-9, flatRegularisation=1e-4, carryTolerance=1e-8,
-                calContactArea=False, areaTolerance=1e-5, twoDimension=True, twoDdir=Vector3(0, 0, 1), unitWidth2D=2.0, areaStep=3,
-                accuracyTol=1e-6, measureTime=True, label="contacts")
+keywords = dict(formulation="closest", backEnd="cone_program", tolerance=1e-9, flatRegularisation=1e-4,
+                carryTolerance=1e-8, calContactArea=False, areaTolerance=1e-5, twoDimension=True, twoDdir=Vector3(
+                    0, 0, 1), unitWidth2D=2.0, areaStep=3, accuracyTol=1e-6, measureTime=True, label="contacts")
 functor_ = yade.Ig2_ConicPP_ConicPP_ScGeom(**keywords)
 for key, value in keywords.items():
     check.equal(getattr(functor_, key), value, f"functor keyword {key}")
@@ -92,29 +95,31 @@ for key, value in keywords.items():
 same(functor_, copy.copy(functor_), "copy of a functor")
 same(functor_, pickle.loads(pickle.dumps(functor_)), "pickled functor")
 check.equal(functor_.bases, ["ConicPotentialParticle"] * 2, "functor.bases")
-for bounds, shape_name in (yade.Bo1_ConicPP_Aabb(label="boxes"), "ConicPotentialParticle"), (yade.Bo1_PP_Aabb_Conic(), "PotentialParticle"):
+for bounds, shape_name in (yade.Bo1_ConicPP_Aabb(label="boxes"), "ConicPotentialParticle"), (yade.Bo1_PP_Aabb_Conic(),
+                                                                                             "PotentialParticle"):
     same(bounds, pickle.loads(pickle.dumps(bounds)), "pickled bounds functor")
     check.equal(bounds.bases, [shape_name], "its bases")
 watching = yade.BoundWatch(label="watch", dead=True)
 same(watching, pickle.loads(pickle.dumps(watching)), "pickled engine")
 check.equal((watching.requests, watching.label, watching.dead), (0, "watch", True), "engine: attributes")
 check.raises(AttributeError, lambda: setattr(watching, "requests", 1), "a count is read only")
-loop = yade.ConicInteractionLoop([functor_], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()], [yade.Law2_SCG_KnKsPhys_KnKsLaw()],
-                                 label="loop")
+loop = yade.ConicInteractionLoop([functor_], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()],
+                                 [yade.Law2_SCG_KnKsPhys_KnKsLaw()], label="loop")
 for one in loop, pickle.loads(pickle.dumps(loop)):
     check.equal((one.label, [type(part).__name__ for part in one.geomDispatcher.functors]),
                 ("loop", ["Ig2_ConicPP_ConicPP_ScGeom"]), "the loop with its functors, and pickled")
 builtin = yade.Ig2_PP_PP_ScGeom(areaStep=9, twoDimension=True, unitWidth2D=0.5)
 drop_in = yade.Ig2_PP_PP_ScGeom_Conic(**builtin.dict())
 check.equal({key: drop_in.dict()[key] for key in builtin.dict()}, builtin.dict(), "keywords of the built-in functor")
-for keyword, value in [("formulation", "nearest"), ("backEnd", "mosek"), ("tolerance", -1.0), ("tolerance", float("nan")),
-                       ("flatRegularisation", 2.0), ("carryTolerance", -1.0), ("areaTolerance", 0.0), ("unitWidth2D", 0.0),
-                       ("twoDdir", (0, 0, 0))]:
+for keyword, value in [("formulation", "nearest"), ("backEnd", "mosek"), ("tolerance", -1.0),
+                       ("tolerance", float("nan")), ("flatRegularisation", 2.0), ("carryTolerance", -1.0),
+                       ("areaTolerance", 0.0), ("unitWidth2D", 0.0), ("twoDdir", (0, 0, 0))]:
     check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(**{keyword: value}), f"{keyword}={value}", keyword)
     before = getattr(functor_, keyword)
     check.raises(ValueError, lambda: setattr(functor_, keyword, value), f"{keyword} set to {value}", keyword)
     check.equal(getattr(functor_, keyword), before, f"{keyword} after a refused value")
-check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(backEnd="conic"), "the former name of a back end", "'cone_program'")
+check.raises(ValueError, lambda: yade.Ig2_ConicPP_ConicPP_ScGeom(backEnd="conic"), "the former name of a back end",
+             "'cone_program'")
 geometry = yade.ScGeomConicPP(memory="0123456789abcdef" * 8, normal=(0, 0, 1), contactPoint=(1, 2, 3))
 same(geometry, copy.copy(geometry), "copy of a geometry")
 check.raises(ValueError, lambda: yade.ScGeomConicPP(memory="xy"), "memory of wrong length", "128")
@@ -141,9 +146,12 @@ find = O.engines[2].geomDispatcher.dispFunctor
 for other in [getattr(yade, name)() for name in OTHERS]:
     name = f"Ig2_{type(other).__name__}_ConicPP_ScGeom"
     for one in round_one, flat_one:
-        check.equal([type(find(*two)).__name__ for two in ((one, other), (other, one))], [name, name], "either order of the shapes")
+        check.equal([type(find(*two)).__name__ for two in ((one, other), (other, one))], [name, name],
+                    "either order of the shapes")
     check.equal(getattr(yade, name)().bases, [type(other).__name__, "PotentialParticle"], "its bases")
-    same(getattr(yade, name)(tolerance=1e-9, label="contacts"), pickle.loads(pickle.dumps(getattr(yade, name)(tolerance=1e-9, label="contacts"))), name)
+    same(
+        getattr(yade, name)(tolerance=1e-9, label="contacts"),
+        pickle.loads(pickle.dumps(getattr(yade, name)(tolerance=1e-9, label="contacts"))), name)
 check.true(find(flat_one, flat_one) is None, "which do not serve two of ours")
 O.engines[2].geomDispatcher.functors = [yade.Ig2_PP_PP_ScGeom_Conic()]
 add(cube(), Vector3(0, 0, 0))

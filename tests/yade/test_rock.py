@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# Rock masses: blocks and their bodies, files, water, excavation, key blocks against linear programs, closed forms and the simulation.
+# SPDX-License-Identifier: GPL-3.0-or-later Rock masses: blocks and their bodies, files, water, excavation, key blocks
+# against linear programs, closed forms and the simulation.
 import os
 import tempfile
 
@@ -21,18 +21,27 @@ cube = Domain.box((-1, -1, -1), (1, 1, 1))
 
 def start(**material):
     O.reset()
-    O.materials.append(yade.ConicJointMat(**{**dict(young=1e9, poisson=0.3, frictionAngle=0.5, density=2000.0), **material}))
+    O.materials.append(
+        yade.ConicJointMat(**{**dict(young=1e9, poisson=0.3, frictionAngle=0.5, density=2000.0), **material}))
     O.engines = [
-        yade.ForceResetter(), yade.InsertionSortCollider([yade.PotentialParticle2AABB()], verletDist=0, avoidSelfInteractionMask=2),
-        yade.ConicInteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True)], [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
+        yade.ForceResetter(),
+        yade.InsertionSortCollider([yade.PotentialParticle2AABB()], verletDist=0, avoidSelfInteractionMask=2),
+        yade.ConicInteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True)],
+                                  [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
                                   [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
-        yade.NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True)]
+        yade.NewtonIntegrator(damping=0.3, gravity=(0, 0, -9.81), exactAsphericalRot=True)
+    ]
 
 
-# Slicing: a slope of which everything is known by sums. The volume of a box less the prism before its face is a closed form.
+# Slicing: a slope of which everything is known by sums. The volume of a box less the prism before its face is a closed
+# form.
 slope = Domain.box((0, 0, 0), (20, 10, 8)).below((18, 0, 0), 60, 90)
-sets = [rock.JointSet(35, 90, 2.0, seed=1), rock.JointSet(80, 265, 3.0, exponential=True, fisher=100, seed=2), rock.JointSet(85, 0, 2.5, seed=3),
-        rock.JointSet(50, 20, 4.0, radius=2.0, seed=4)]
+sets = [
+    rock.JointSet(35, 90, 2.0, seed=1),
+    rock.JointSet(80, 265, 3.0, exponential=True, fisher=100, seed=2),
+    rock.JointSet(85, 0, 2.5, seed=3),
+    rock.JointSet(50, 20, 4.0, radius=2.0, seed=4)
+]
 mass = rock.slice(slope, sets, progress=False)
 volume = 10 * (20 * 8 - 2 * 8 - 0.5 * 8 * 8 / math.tan(math.radians(60)))
 check.close(mass.volume / volume, 1.0, 1e-12, "the volumes of the blocks sum to that of the domain")
@@ -41,37 +50,52 @@ sums = np.zeros(len(mass.faces))
 for side in (0, 1):
     np.add.at(sums, mass.partners["faces"][:, side].astype(int), mass.partners["area"])
 of_joints = mass.faces["of"] == 1
-check.close(np.abs(sums - mass.faces["area"])[of_joints].max(), 0.0, 1e-8, "the areas that a face shares sum to its own")
-check.true(set(mass.set_of_face[of_joints]) == {0, 1, 2, 3} and set(mass.set_of_face[~of_joints]) == {-1}, "faces know their set")
+check.close(
+    np.abs(sums - mass.faces["area"])[of_joints].max(), 0.0, 1e-8, "the areas that a face shares sum to its own")
+check.true(
+    set(mass.set_of_face[of_joints]) == {0, 1, 2, 3} and set(mass.set_of_face[~of_joints]) == {-1},
+    "faces know their set")
 block = mass[17]
-check.close(np.abs(block.planes[:, :3] @ block.corners.T - block.planes[:, 3:]).min(1).max(), 0.0, 1e-12, "planes hold corners")
+check.close(
+    np.abs(block.planes[:, :3] @ block.corners.T - block.planes[:, 3:]).min(1).max(), 0.0, 1e-12, "planes hold corners")
 check.close(sum(mass[i].volume for i in range(len(mass))), mass.volume, 1e-9, "blocks one by one")
 outer = sum(mass.faces["area"][mass.faces_on(Domain.TOP)])
 check.close(outer, 10 * (18 - 8 / math.tan(math.radians(60))), 1e-9, "area of the top")
 check.equal(rock.slice(slope, sets, progress=False).blocks.tobytes(), mass.blocks.tobytes(), "the same seeds")
 few = rock.slice(slope, sets[:3], least_volume=2.0, least_thickness=0.1, progress=False)
-check.true(few.too_small > 0 and few.blocks["volume"].min() >= 2.0 and abs(few.volume / volume - 1) < 1e-12, "small parts stay with their block")
-check.equal(list(rock.slice(cube, [rock.joint((0, 0, 0), 0, 0), rock.joint((0, 0, 5), 0, 0)], progress=False).missing), [1], "a plane that misses is told")
+check.true(few.too_small > 0 and few.blocks["volume"].min() >= 2.0 and abs(few.volume / volume - 1) < 1e-12,
+           "small parts stay with their block")
+check.equal(list(rock.slice(cube, [rock.joint(
+    (0, 0, 0), 0, 0), rock.joint((0, 0, 5), 0, 0)], progress=False).missing), [1], "a plane that misses is told")
 by_one, by_three = (rock.slice(slope, sets, threads=threads, progress=False) for threads in (1, 3))
-check.true(by_one.blocks.tobytes() == by_three.blocks.tobytes() and by_one.faces.tobytes() == by_three.faces.tobytes(), "threads change nothing")
-# A rectangle that ends before the middle cuts the half of a cube that it reaches, a turned one that reaches over it both.
+check.true(by_one.blocks.tobytes() == by_three.blocks.tobytes() and by_one.faces.tobytes() == by_three.faces.tobytes(),
+           "threads change nothing")
+# A rectangle that ends before the middle cuts the half of a cube that it reaches, a turned one that reaches over it
+# both.
 halves = rock.joint((0, 0, 0), 90, 90)
 for direction, blocks in ((90, 3), (0, 4)):
     ended = rock.rectangle((0.5, 0, 0), 0, direction, length=1.2, width=0.9)
     check.equal(len(rock.slice(cube, [halves, ended], progress=False)), blocks, f"a rectangle towards {direction}")
 within = rock.slice(cube, [rock.rectangle((0.2, 0.1, 0), 30, 90, 0.5, 0.7)], progress=False).faces
-check.close(np.abs(np.sort(within["jointed_area"])[-3:] - (0, 0.35, 0.35)).max(), 0.0, 1e-12, "the area of its extent on both faces that it made")
+check.close(
+    np.abs(np.sort(within["jointed_area"])[-3:] - (0, 0.35, 0.35)).max(), 0.0, 1e-12,
+    "the area of its extent on both faces that it made")
 ended = rock.rectangle((1, 2, 3), 30, 90, 4, 2)
 down = np.array([math.cos(math.radians(30)), 0, -math.sin(math.radians(30))])
-check.close(np.abs(np.abs((np.array(ended.outline) - (1, 2, 3)) @ down) - 1).max(), 0.0, 1e-12, "its width down the dip")
+check.close(
+    np.abs(np.abs((np.array(ended.outline) - (1, 2, 3)) @ down) - 1).max(), 0.0, 1e-12, "its width down the dip")
 check.close(np.dot(ended.normal, down), 0.0, 1e-12, "its plane")
-for corners, text in (([(0, 0, 0), (1, 0, 0)], "three or more"), ([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.1)], "lie in one plane"),
-                      ([(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0), (0, 2, 0)], "convex polygon")):
+for corners, text in (([(0, 0, 0), (1, 0, 0)], "three or more"), ([
+    (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.1)
+], "lie in one plane"), ([(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0), (0, 2, 0)], "convex polygon")):
     check.raises(ValueError, lambda: rock.polygon(corners), f"corners that {text}", text)
 check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.11, progress=False)), 1, "least_width")
-check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], largest_aspect=19, progress=False)), 1, "largest_aspect")
-check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.09, largest_aspect=21, progress=False)), 2, "and neither")
-# Joints as surfaces: one block is lifted by a millimetre, shifted by two across its base, and turned about the normal there.
+check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], largest_aspect=19, progress=False)), 1,
+            "largest_aspect")
+check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.09, largest_aspect=21, progress=False)),
+            2, "and neither")
+# Joints as surfaces: one block is lifted by a millimetre, shifted by two across its base, and turned about the normal
+# there.
 start()
 two = rock.slice(cube, [rock.joint((0, 0, 0), 0, 0)], progress=False)
 ids = rock.bodies(two, rounding=0.01)
@@ -87,7 +111,9 @@ record = rock.JointRecorder(two, ids, "out/cube")
 record()
 from potential_particles.output import vtk_files
 frame = vtk_files.read(f"out/cube.joints.{O.iter:07d}.vtp")
-check.true(len(frame["triangles"]) == 2 and Path("out/cube.joints.pvd").exists() and abs(frame["opening"][0] - 0.001) < 1e-12, "its surface for ParaView")
+check.true(
+    len(frame["triangles"]) == 2 and Path("out/cube.joints.pvd").exists() and abs(frame["opening"][0] - 0.001) < 1e-12,
+    "its surface for ParaView")
 O.bodies.erase(int(ids[0]))
 check.equal(len(rock.joint_table(two, ids)), 0, "a block that is gone")
 # Regions: a tunnel, which is a prism, and what a domain leaves out.
@@ -107,21 +133,44 @@ notched = rock.slice(cube.without(Domain.box((-0.2, -2, 0), (0.2, 2, 2))), [], p
 check.true(len(notched) == 3 and len(set(notched.pieces)) == 1, "one that is notched stays one")
 
 # Bad input is one sentence.
-for text, action in (
-        ("dip=95", lambda: rock.JointSet(95, 0, 1)), ("spacing=0", lambda: rock.JointSet(5, 0, 0)), ("fisher=-1", lambda: rock.JointSet(5, 0, 1, fisher=-1)),
-        ("radius=0", lambda: rock.joint((0, 0, 0), 5, 0, 0)), ("must be finite", lambda: rock.joint((0, 0, math.nan), 5, 0)),
-        ("the domain is open", lambda: rock.slice(Domain([(0, 0, 1, 1)]), sets)), ("the domain is empty", lambda: rock.slice(cube.below((0, 0, -5), 0, 0), sets)),
-        ("more than most_blocks = 7", lambda: rock.slice(slope, sets, most_blocks=7)), ("not a rock.Domain", lambda: rock.slice([(0, 0, 1, 1)], sets)),
-        ("joints[0] holds float", lambda: rock.slice(cube, [[1.5]])), ("least_volume=-1", lambda: rock.slice(cube, [], least_volume=-1)),
-        ("must lie below", lambda: Domain.box((0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
-        ("at most 10 million joints", lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("rounding=0.7", lambda: rock.bodies(mass, rounding=0.7)),
-        ("fixed must be numbers from 0", lambda: rock.bodies(mass, fixed=[99999])),
-        ("friction has no key None", lambda: rock.key_blocks(mass, (), friction={0: 3})), ("friction='bedding'", lambda: rock.key_blocks(mass, (), friction={"bedding": 3, None: 3})),
-        ("free must be numbers of planes", lambda: rock.key_blocks(mass, [True, False])), ("free holds 77", lambda: rock.key_blocks(mass, [77])),
-        ("loads must be", lambda: rock.key_blocks(mass, (), loads=np.full((len(mass), 6), math.nan))), ("removed must be numbers", lambda: rock.key_blocks(mass, (), removed=[-1])),
-        ("removed must be numbers", lambda: rock.key_blocks(mass, (), removed=[1.7])), ("loads must be (2, 6)", lambda: rock.apply_loads([0, 1], [[0] * 6])),
-        ("array of bool", lambda: rock.excavate(mass.inside(0))), ("slow=-1", lambda: rock.excavate([], slow=-1)), ("joints is NoneType", lambda: rock.slice(cube, None)),
-        ("joints[0] is int", lambda: rock.slice(cube, [3])), ("the domain has the planes 0 to", lambda: mass.on_domain(99)), ("the domain is empty", lambda: rock.slice(cube, [], regions=Domain([(0, 0, 1, 0), (0, 0, -1, -1)])))):
+for text, action in (("dip=95", lambda: rock.JointSet(95, 0, 1)), ("spacing=0", lambda: rock.JointSet(5, 0, 0)),
+                     ("fisher=-1", lambda: rock.JointSet(5, 0, 1, fisher=-1)), ("radius=0", lambda: rock.joint(
+                         (0, 0, 0), 5, 0, 0)), ("must be finite", lambda: rock.joint(
+                             (0, 0, math.nan), 5, 0)), ("the domain is open",
+                                                        lambda: rock.slice(Domain([(0, 0, 1, 1)]), sets)),
+                     ("the domain is empty", lambda: rock.slice(cube.below(
+                         (0, 0, -5), 0, 0), sets)), ("more than most_blocks = 7",
+                                                     lambda: rock.slice(slope, sets, most_blocks=7)),
+                     ("not a rock.Domain",
+                      lambda: rock.slice([(0, 0, 1, 1)], sets)), ("joints[0] holds float",
+                                                                  lambda: rock.slice(cube, [[1.5]])),
+                     ("least_volume=-1",
+                      lambda: rock.slice(cube, [], least_volume=-1)), ("must lie below", lambda: Domain.box(
+                          (0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
+                     ("at most 10 million joints",
+                      lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("rounding=0.7",
+                                                                               lambda: rock.bodies(mass, rounding=0.7)),
+                     ("fixed must be numbers from 0",
+                      lambda: rock.bodies(mass, fixed=[99999])), ("friction has no key None",
+                                                                  lambda: rock.key_blocks(mass, (), friction={0: 3})),
+                     ("friction='bedding'", lambda: rock.key_blocks(mass, (), friction={"bedding": 3, None: 3})),
+                     ("free must be numbers of planes",
+                      lambda: rock.key_blocks(mass, [True, False])), ("free holds 77",
+                                                                      lambda: rock.key_blocks(mass, [77])),
+                     ("loads must be", lambda: rock.key_blocks(mass, (), loads=np.full(
+                         (len(mass), 6), math.nan))), ("removed must be numbers",
+                                                       lambda: rock.key_blocks(mass, (), removed=[-1])),
+                     ("removed must be numbers",
+                      lambda: rock.key_blocks(mass, (), removed=[1.7])), ("loads must be (2, 6)",
+                                                                          lambda: rock.apply_loads([0, 1], [[0] * 6])),
+                     ("array of bool", lambda: rock.excavate(mass.inside(0))), ("slow=-1",
+                                                                                lambda: rock.excavate([], slow=-1)),
+                     ("joints is NoneType", lambda: rock.slice(cube, None)), ("joints[0] is int",
+                                                                              lambda: rock.slice(cube, [3])),
+                     ("the domain has the planes 0 to",
+                      lambda: mass.on_domain(99)), ("the domain is empty",
+                                                    lambda: rock.slice(cube, [], regions=Domain([(0, 0, 1, 0),
+                                                                                                 (0, 0, -1, -1)])))):
     check.raises(ValueError, action, text, text)
 
 # Files.
@@ -135,9 +184,11 @@ check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a short line", "bad.
 Path("bad.csv").write_text("0,0,0,95,90,1\n")
 check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a dip", "bad.csv, line 1: dip=95")
 Path("bad.csv").write_text("1,2,3,3O,90,5\n1,2,3,30,90,5\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a first row with a word in it is no header", "bad.csv, line 1, column 4: '3O'")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a first row with a word in it is no header",
+             "bad.csv, line 1, column 4: '3O'")
 Path("bad.csv").write_text("1,inf,3,30,90,5\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "an infinite place", "bad.csv, line 1, column 2: 'inf' is no finite")
+check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "an infinite place",
+             "bad.csv, line 1, column 2: 'inf' is no finite")
 Path("bad.csv").write_bytes("1,2,3,30,90,5 # Kluft\xfc\n".encode("latin-1", "replace"))
 check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "no UTF-8", "bad.csv is no text in UTF-8")
 Path("empty.csv").write_text("x,y\n")
@@ -145,40 +196,55 @@ check.raises(ValueError, lambda: rock.read_dfn("empty.csv"), "no rows", "no row 
 # BlockGen's: x north, y east, z downwards; a plane that dips to the east descends, with z downwards, along y.
 Path("joints.csv").write_text("dip;dipdir;x;y;z;a;b;phi_b;phi_r;\n30;90;1;2;3;4;5;30;25;\n")
 one, = rock.read_blockgen("joints.csv", "probabilistic")
-check.close(abs(np.dot(one.normal, (0, math.cos(math.radians(30)), math.sin(math.radians(30))))), 0.0, 1e-15, "the plane of BlockGen descends along its dip")
+check.close(abs(np.dot(one.normal, (0, math.cos(math.radians(30)), math.sin(math.radians(30))))), 0.0, 1e-15,
+            "the plane of BlockGen descends along its dip")
 corners = np.array(one.outline) - (1, 2, 3)
 check.close(Vector3(*one.point), Vector3(1, 2, 3), 1e-12, "its place")
 # With a dip direction of 90 degrees the strike is north, x; the half lengths are those along it and down the dip.
 check.close(np.abs(np.abs(corners[:, 0]) - 4).max(), 0.0, 1e-12, "its length along the strike")
 check.close(np.abs(np.hypot(corners[:, 1], corners[:, 2]) - 5).max(), 0.0, 1e-12, "and down the dip")
 Path("planes.csv").write_text("dip;dipdir;spacing;phi\n0;0;0.5;30;\n")
-check.equal([round(one.point[2], 12) for one in rock.read_blockgen("planes.csv", "persistent", size=2)], [-1, -0.5, 0, 0.5, 1], "planes of a spacing")
+check.equal([round(one.point[2], 12) for one in rock.read_blockgen("planes.csv", "persistent", size=2)],
+            [-1, -0.5, 0, 0.5, 1], "planes of a spacing")
 check.raises(ValueError, lambda: rock.read_blockgen("planes.csv", "persistent"), "no size", "size is missing")
-check.equal(len(rock.slice(cube, rock.read_blockgen("planes.csv", "persistent", size=2), progress=False)), 4, "which cut")
+check.equal(len(rock.slice(cube, rock.read_blockgen("planes.csv", "persistent", size=2), progress=False)), 4,
+            "which cut")
 
 # Where four sets meet in the middle of the domain faces have sides of no length: nothing lies open inside all the same.
 for seed in range(6):
     random = np.random.default_rng(seed)
     many = [rock.JointSet(random.uniform(0, 90), random.uniform(0, 360), 0.9) for _ in range(4)]
-    modes = {one.mode for one in rock.key_blocks(rock.slice(Domain.box((0, 0, 0), (2, 2, 2)), many, progress=False), [])}
+    modes = {
+        one.mode
+        for one in rock.key_blocks(rock.slice(Domain.box((0, 0, 0), (2, 2, 2)), many, progress=False), [])
+    }
     check.equal(modes, {"inner"}, f"sets through a point, seed {seed}")
 
 # Bodies: where the blocks are, with their mass, and the inertia that the library finds for the shape by itself.
 start()
 ids = rock.bodies(few, rounding=0.01, fixed=few.on_domain(Domain.BOTTOM))
-check.close(sum(O.bodies[int(i)].state.mass for i in ids) / (2000 * volume), 1.0, 1e-12, "masses sum to that of the domain")
+check.close(
+    sum(O.bodies[int(i)].state.mass for i in ids) / (2000 * volume), 1.0, 1e-12, "masses sum to that of the domain")
 for number in (0, 5, 11):
     body, block = O.bodies[int(ids[number])], few[number]
     found, _, inertia, _ = body.shape.massProperties(1e-5)
-    check.true(0.98 < found / block.volume <= 1.0, f"the particle is the block but for its edges: {found / block.volume}")
-    check.close(np.abs(np.array([inertia[i, i] for i in range(3)]) * 2000 / np.array(body.state.inertia) - 1).max(), 0.0, 0.04, "inertia")
+    check.true(0.98 < found / block.volume <= 1.0,
+               f"the particle is the block but for its edges: {found / block.volume}")
+    check.close(
+        np.abs(np.array([inertia[i, i] for i in range(3)]) * 2000 / np.array(body.state.inertia) - 1).max(), 0.0, 0.04,
+        "inertia")
     turn = np.array(body.state.ori.toRotationMatrix())
-    check.close(np.abs(turn @ np.diag(np.array(body.state.inertia)) @ turn.T / 2000 - block.inertia).max() / block.inertia.max(), 0.0, 1e-9, "in its axes")
+    check.close(
+        np.abs(turn @ np.diag(np.array(body.state.inertia)) @ turn.T / 2000 - block.inertia).max()
+        / block.inertia.max(), 0.0, 1e-9, "in its axes")
     planes = np.array(body.shape.planes)
     moved = planes[:, :3] @ turn.T
     check.close(np.abs(moved - block.planes[:, :3]).max(), 0.0, 1e-12, "its faces")
-    check.close(np.abs(planes[:, 3] + body.shape.r + moved @ np.array(body.state.pos) - block.planes[:, 3]).max(), 0.0, 1e-9, "lie where they were cut")
-check.equal([set(O.bodies[int(i)].state.blockedDOFs) == set("xyzXYZ") for i in ids], few.on_domain(Domain.BOTTOM).tolist(), "fixed ones")
+    check.close(
+        np.abs(planes[:, 3] + body.shape.r + moved @ np.array(body.state.pos) - block.planes[:, 3]).max(), 0.0, 1e-9,
+        "lie where they were cut")
+check.equal([set(O.bodies[int(i)].state.blockedDOFs) == set("xyzXYZ") for i in ids],
+            few.on_domain(Domain.BOTTOM).tolist(), "fixed ones")
 # Neighbours touch, and nothing overlaps by more than that.
 O.dt = 1e-9
 run(1)
@@ -186,7 +252,8 @@ depths = [i.geom.penetrationDepth for i in O.interactions if i.isReal]
 check.true(0 < min(depths) and max(depths) < 1e-9, f"blocks touch and do not overlap: {max(depths)}")
 owners = few.faces["block"].astype(int)[few.partners["faces"].astype(int)]
 still = few.on_domain(Domain.BOTTOM)
-pairs = [(tuple(sorted((int(ids[a]), int(ids[b])))), area) for (a, b), area in zip(owners, few.partners["area"]) if not (still[a] and still[b])]
+pairs = [(tuple(sorted((int(ids[a]), int(ids[b])))), area) for (a, b), area in zip(owners, few.partners["area"])
+         if not (still[a] and still[b])]
 found = {tuple(sorted((i.id1, i.id2))) for i in O.interactions if i.isReal}
 # Of faces that share little, rounded edges may be apart.
 check.true({pair for pair, area in pairs if area > 0.05} <= found, "partners are contacts")
@@ -215,21 +282,47 @@ start(normalStiffness=1e9, shearStiffness=1e9, frictionAngle=1.2, restitution=0.
 O.engines[-1].damping = 0.0
 upper = two.blocks["centroid"][:, 2] > 1.9
 ids = rock.bodies(two, rounding=0.01, fixed=~upper)
-O.engines = O.engines[:3] + [rock.joint_engine(two, ids, {0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0), 1: yade.ConicJointMat(frictionAngle=0.0)})] + O.engines[3:]
+O.engines = O.engines[:3] + [
+    rock.joint_engine(
+        two, ids, {
+            0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0),
+            1: yade.ConicJointMat(frictionAngle=0.0)
+        })
+] + O.engines[3:]
 O.dt = potential_particles.critical_time_step()
-# The stiffness that it gives counts for contacts that are not there yet: against twice that of the bodies, which a rigid neighbour would give.
-for stiffness, ratio in ((dict(normalStiffness=1.0), 1.0), (dict(normalStiffness=8e11), 20.0), (dict(shearStiffness=8e11), 20.0)):
-    O.engines = [*O.engines[:3], rock.joint_engine(two, ids, {0: yade.ConicJointMat(**stiffness), 1: yade.ConicJointMat()}), O.engines[-1]]
+# The stiffness that it gives counts for contacts that are not there yet: against twice that of the bodies, which a
+# rigid neighbour would give.
+for stiffness, ratio in ((dict(normalStiffness=1.0), 1.0), (dict(normalStiffness=8e11), 20.0),
+                         (dict(shearStiffness=8e11), 20.0)):
+    O.engines = [
+        *O.engines[:3],
+        rock.joint_engine(two, ids, {0: yade.ConicJointMat(**stiffness), 1: yade.ConicJointMat()}), O.engines[-1]
+    ]
     check.close(O.dt / potential_particles.critical_time_step() / ratio, 1.0, 1e-9, f"a joint with {stiffness}")
 O.materials[0].shearStiffness = 100e9
 O.engines = [*O.engines[:3], O.engines[-1]]
 check.close(O.dt / potential_particles.critical_time_step(), 10.0, 1e-9, "a joint that is stiffer in shear")
 O.materials[0].shearStiffness = 1e9
-O.engines = [*O.engines[:3], rock.joint_engine(two, ids, {0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0), 1: yade.ConicJointMat(frictionAngle=0.0)}), O.engines[-1]]
+O.engines = [
+    *O.engines[:3],
+    rock.joint_engine(
+        two, ids, {
+            0: yade.ConicJointMat(frictionAngle=0.35, cohesion=7.0, residualCohesion=7.0),
+            1: yade.ConicJointMat(frictionAngle=0.0)
+        }), O.engines[-1]
+]
 run(2)
 physics = [i.phys for i in O.interactions if i.isReal]
-check.true({round(p.tangensOfFrictionAngle, 9) for p in physics} == {round(math.tan(0.35), 9), 0.0} and {p.cohesion for p in physics} >= {7.0},
-           f"each contact has its set's: {[(i.id1, i.id2, i.phys.tangensOfFrictionAngle, i.phys.cohesion, i.iterMadeReal) for i in O.interactions if i.isReal]}")
+check.true({
+    round(p.tangensOfFrictionAngle, 9)
+    for p in physics
+} == {round(math.tan(0.35), 9), 0.0} and {
+    p.cohesion
+    for p in physics
+} >= {
+    7.0
+}, f"each contact has its set's: {[(i.id1, i.id2, i.phys.tangensOfFrictionAngle, i.phys.cohesion, i.iterMadeReal) for i in O.interactions if i.isReal]}"
+           )
 run(int(0.3 / O.dt))
 slides = [O.bodies[int(i)].state.pos[0] - c[0] for i, c in zip(ids[upper], two.blocks["centroid"][upper])]
 acceleration = 9.81 * (math.sin(math.radians(35)) - math.tan(0.35) * math.cos(math.radians(35)))
@@ -239,16 +332,20 @@ check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: 3}), "no materi
 degrees = yade.ConicJointMat()
 degrees.frictionAngle = 30
 for material in (degrees, yade.FrictMat(frictionAngle=30)):
-    check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: material}), "degrees", "frictionAngle of materials[0] = 30: give radians in [0, pi/2)")
-check.true(type(ids[0]) is int and all(type(one) is int for one in ids) and O.bodies[ids[0]].id == ids[0] and ids[upper].tolist() == [one for one, is_upper in zip(ids, upper) if is_upper],
-           "one id is an int, which O.bodies takes")
+    check.raises(ValueError, lambda: rock.joint_engine(two, ids, {0: material}), "degrees",
+                 "frictionAngle of materials[0] = 30: give radians in [0, pi/2)")
+check.true(
+    type(ids[0]) is int and all(type(one) is int for one in ids) and O.bodies[ids[0]].id == ids[0]
+    and ids[upper].tolist() == [one for one, is_upper in zip(ids, upper) if is_upper],
+    "one id is an int, which O.bodies takes")
 check.close(np.arange(len(ids))[ids].sum(), len(ids) * (len(ids) - 1) // 2, 0, "many are an array of numbers")
 # What a script has made of the joints that there are stays, in this run and in one that loads it.
 run(1)
 for contact in O.interactions:
     if contact.isReal:
         contact.phys.tangensOfFrictionAngle *= 0.5
-frictions = lambda: {(i.id1, i.id2): (i.phys.tangensOfFrictionAngle, i.phys.cohesion) for i in O.interactions if i.isReal}
+frictions = lambda: {(i.id1, i.id2): (i.phys.tangensOfFrictionAngle, i.phys.cohesion)
+                     for i in O.interactions if i.isReal}
 reduced = frictions()
 check.true(len(reduced) >= 3, f"joints: {reduced}")
 O.save("reduced.yade.gz")
@@ -257,7 +354,8 @@ check.equal(frictions(), reduced, "joints keep what a script gave them")
 O.load("reduced.yade.gz")
 run(1)
 check.equal(frictions(), reduced, "and do so after loading")
-# Saved and loaded, as in another process, the engine goes on: contacts that are made anew have the friction of their set.
+# Saved and loaded, as in another process, the engine goes on: contacts that are made anew have the friction of their
+# set.
 O.save("joints.yade.gz")
 O.load("joints.yade.gz")
 potential_particles.joints._tables.clear()
@@ -268,11 +366,15 @@ for number in ids[upper]:
 run(3)
 north = two.blocks["centroid"][:, 1] > 2
 columns = [set(ids[north].tolist()), set(ids[~north].tolist())]
-check.equal({round(i.phys.tangensOfFrictionAngle, 9) for i in O.interactions if i.isReal and {i.id1, i.id2} in columns}, {round(math.tan(0.35), 9)}, "after loading")
+check.equal({round(i.phys.tangensOfFrictionAngle, 9)
+             for i in O.interactions if i.isReal and {i.id1, i.id2} in columns}, {round(math.tan(0.35), 9)},
+            "after loading")
 
-# Loads: water all around a block is buoyancy (Archimedes), half of it where the water reaches half way up a cube; a surcharge on the top.
+# Loads: water all around a block is buoyancy (Archimedes), half of it where the water reaches half way up a cube; a
+# surcharge on the top.
 water = rock.water_pressure(mass, np.ones(len(mass.faces), bool), level=20.0)
-check.close(np.abs(water[:, :3] - np.outer(9810 * mass.blocks["volume"], (0, 0, 1))).max(), 0.0, 1e-6 * 9810, "buoyancy")
+check.close(
+    np.abs(water[:, :3] - np.outer(9810 * mass.blocks["volume"], (0, 0, 1))).max(), 0.0, 1e-6 * 9810, "buoyancy")
 check.close(np.abs(water[:, 3:]).max(), 0.0, 1e-6 * 9810, "has no torque about the centroid")
 one = rock.slice(cube, [], progress=False)
 side = rock.water_pressure(one, one.faces_on(Domain.EAST), level=0.5)
@@ -290,7 +392,8 @@ check.close(clump.state.vel * clump.state.mass / O.dt, Vector3(-100 * 4, 0, 0), 
 check.close(clump.state.angMom / O.dt, Vector3(0, 400 * centre, 0), 1e-6, "and torque")
 
 # Excavation: the lower of two blocks is taken out, the upper one falls.
-column = rock.slice(Domain.box((0, 0, 0), (1, 1, 3)), [rock.joint((0, 0, 1), 0, 0)], regions=[Domain.box((-1, -1, 1), (2, 2, 2))], progress=False)
+column = rock.slice(Domain.box((0, 0, 0), (1, 1, 3)), [rock.joint((0, 0, 1), 0, 0)],
+                    regions=[Domain.box((-1, -1, 1), (2, 2, 2))], progress=False)
 start()
 ids = rock.bodies(column, rounding=0.01, fixed=column.on_domain(Domain.BOTTOM))
 O.dt = 1e-4
@@ -300,7 +403,8 @@ check.close(top.state.pos[2], 2.5, 1e-3, "it rests")
 check.equal(rock.excavate(ids[column.inside(0)], settle=1000), 1000, "and is undermined")
 check.true(len([body for body in O.bodies if body]) == 2 and top.state.pos[2] < 2.49, f"it falls: {top.state.pos[2]}")
 check.equal(rock.excavate(ids[column.inside(0)]), 0, "once more: nothing is left to take out")
-for text, given in (("ids holds 999: there is no such body", [ids[0], 999]), ("ids holds -1", -1), ("ids holds 0.5: an id is a whole number", [0.5])):
+for text, given in (("ids holds 999: there is no such body", [ids[0], 999]), ("ids holds -1", -1),
+                    ("ids holds 0.5: an id is a whole number", [0.5])):
     check.raises(ValueError, lambda: rock.excavate(given), text, text)
 check.equal(len([body for body in O.bodies if body]), 2, "and nothing was taken out")
 
@@ -314,7 +418,9 @@ area = plane.faces["area"][slid.faces[0]]
 weight = 2600 * 9.81 * slid.volume
 exact = math.tan(math.radians(30)) / math.tan(math.radians(35)) + 2e3 * area / (weight * math.sin(math.radians(35)))
 check.close(slid.factor, exact, 1e-12, "a block on a plane")
-check.close(np.abs(np.array(slid.direction) - (math.cos(math.radians(35)), 0, -math.sin(math.radians(35)))).max(), 0.0, 1e-12, "slides down its dip")
+check.close(
+    np.abs(np.array(slid.direction) - (math.cos(math.radians(35)), 0, -math.sin(math.radians(35)))).max(), 0.0, 1e-12,
+    "slides down its dip")
 check.true(slid.removable and slid.color == rock.COLOURS["held" if exact > 1 else "sliding"], "its colour")
 # The wedge of Hoek & Bray: by the closed form of the wedge study, for one friction angle.
 first, second = (50, 140), (60, 230)
@@ -328,7 +434,8 @@ found = [one for one in rock.key_blocks(wedge, (Domain.TOP, 6), friction=33) if 
 check.equal(len(found), 1, "one wedge")
 cosine = normals[0] @ normals[1]
 forces = np.linalg.solve([[1, cosine], [cosine, 1]], [normals[0][2], normals[1][2]])
-check.close(found[0].factor, math.tan(math.radians(33)) * forces.sum() / -line[2], 1e-9, "factor of safety of the wedge")
+check.close(found[0].factor,
+            math.tan(math.radians(33)) * forces.sum() / -line[2], 1e-9, "factor of safety of the wedge")
 check.close(np.abs(np.array(found[0].direction) - line).max(), 0.0, 1e-9, "along the line of both")
 # Undermined: what rests on an excavated block falls. Water behind a block drives it.
 hung = rock.slice(cube, [rock.joint((0, 0, 0), 0, 0)], regions=[Domain.box((-2, -2, -2), (2, 2, -0.5))], progress=False)
@@ -336,28 +443,36 @@ modes = [one.mode for one in rock.key_blocks(hung, (), removed=hung.inside(0))]
 check.equal(sorted(modes), ["falling", "inner"], "walls hold, and what they do not hold falls")
 dry, = [one for one in rock.key_blocks(plane, free, friction=40) if one.mode == "sliding"]
 behind = plane.faces_of(1)
-wet, = [one for one in rock.key_blocks(plane, free, friction=40, loads=rock.water_pressure(plane, behind, level=3.0)) if one.blocks == dry.blocks]
+wet, = [
+    one for one in rock.key_blocks(plane, free, friction=40, loads=rock.water_pressure(plane, behind, level=3.0))
+    if one.blocks == dry.blocks
+]
 check.true(wet.factor < dry.factor, f"water in the crack behind: {wet.factor} < {dry.factor}")
 print(rock.summary(found))
 
-# Against linear programs and non-negative least squares, on slopes cut at random: the same removable blocks, the same way.
+# Against linear programs and non-negative least squares, on slopes cut at random: the same removable blocks, the same
+# way.
 for seed in range(15):
     mass, friction, _ = slope_cuts.cut(1000 + seed)
     for one in rock.key_blocks(mass, slope_cuts.FREE, friction):
         if one.mode == "inner":
             continue
         faces = mass[one.blocks[0]].faces
-        holding = faces[~((mass.faces["of"][faces] == 0) & np.isin(mass.faces["index"][faces].astype(int), slope_cuts.FREE))]
+        holding = faces[~(
+            (mass.faces["of"][faces] == 0) & np.isin(mass.faces["index"][faces].astype(int), slope_cuts.FREE))]
         inward = -mass.faces["plane"][holding, :3]
-        reach = max(-linprog(-sign * np.eye(3)[axis], -inward, np.zeros(len(inward)), bounds=[(-1, 1)] * 3).fun for axis in range(3) for sign in (1, -1))
+        reach = max(-linprog(-sign * np.eye(3)[axis], -inward, np.zeros(len(inward)), bounds=[(-1, 1)] * 3).fun
+                    for axis in range(3) for sign in (1, -1))
         check.equal(one.removable, reach > 1e-7, f"seed {seed}: removable, {one.mode}, {reach}")
         # The projection of the pull on the cone.
         pull = np.array([0.0, 0.0, -1.0])
         pressing, _ = nnls(inward.T, -pull)
         along = pull + inward.T @ pressing
-        check.equal(one.direction is not None, np.linalg.norm(along) > 1e-6, f"seed {seed}: moves without friction, {one.mode}")
+        check.equal(one.direction is not None,
+                    np.linalg.norm(along) > 1e-6, f"seed {seed}: moves without friction, {one.mode}")
         if one.direction is not None:
-            check.close(np.abs(along / np.linalg.norm(along) - one.direction).max(), 0.0, 1e-6, f"seed {seed}: direction")
+            check.close(
+                np.abs(along / np.linalg.norm(along) - one.direction).max(), 0.0, 1e-6, f"seed {seed}: direction")
             held = math.tan(math.radians(friction)) * pressing.sum() / np.linalg.norm(along)
             check.close(one.factor, held, 1e-6 * (1 + held), f"seed {seed}: factor of safety")
 
@@ -370,7 +485,10 @@ for seed in range(40):
         continue
     tried, moving = tried + 1, moving + one.moves
     distance, direction, _ = slope_cuts.judged(mass, one, friction)
-    check.true(slope_cuts.agrees(one, distance, direction), f"seed {seed}: {one.mode}, factor {one.factor:.3f}, moved by {distance:.2e} m along {direction}, not {one.direction}")
+    check.true(
+        slope_cuts.agrees(one, distance, direction),
+        f"seed {seed}: {one.mode}, factor {one.factor:.3f}, moved by {distance:.2e} m along {direction}, not {one.direction}"
+    )
 check.true(tried == 20 and 5 <= moving <= 15, f"{tried} cuts, {moving} that move")
 
 
@@ -382,10 +500,13 @@ for spacing, words in (("1e-9", "spacing=1e-09 over size=10 makes 1e+10 joints")
     check.raises(ValueError, lambda: rock.read_blockgen("many.csv", "persistent", size=10), spacing, "many.csv, line 1")
 small = rock.Domain.box((0, 0, 0), (1, 1, 1))
 for name, make, words in [
-    ("joints of a set", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-6)], progress=False), "no more than 1000000 are made"),
+    ("joints of a set", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-6)], progress=False),
+     "no more than 1000000 are made"),
     ("discs", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-3, radius=1e-3)], progress=False), "10 million"),
-    ("a large box", lambda: rock.Domain.box((-1e150,) * 3, (1e150,) * 3), "lower=(-1e+150"),
-    ("planes far away", lambda: rock.slice(rock.Domain([(*sign * axis, 1e150) for axis in np.eye(3) for sign in (1, -1)]), [], progress=False), "extent of the domain = 1"),
+    ("a large box", lambda: rock.Domain.box((-1e150, ) * 3, (1e150, ) * 3), "lower=(-1e+150"),
+    ("planes far away",
+     lambda: rock.slice(rock.Domain([(*sign * axis, 1e150) for axis in np.eye(3)
+                                     for sign in (1, -1)]), [], progress=False), "extent of the domain = 1"),
     ("sides", lambda: rock.Domain.cylinder((0, 0, 0), (0, 0, 1), 1, sides=10**12), "sides=1000000000000"),
 ]:
     check.raises(ValueError, make, name, words)

@@ -58,7 +58,8 @@ for ending in ("yade.gz", "xml", "xml.bz2", "memory"):
     check.true(len(found) == len(expected) and same, f"{ending}: the run goes on as before, off by {worst:g}")
     check.equal(functor().failures, 0, f"{ending}: failures")
 
-# What a contact carries on from step to step is not saved: a save drops it, so that the run goes on from there as a loaded one does.
+# What a contact carries on from step to step is not saved: a save drops it, so that the run goes on from there as a
+# loaded one does.
 scene()
 run(1500)
 
@@ -74,7 +75,8 @@ O.saveTmp("dropped")
 check.equal(carried_in_a_step(), 0, "after a save all are solved")
 check.true(carried_in_a_step() > 0, "and carried on again")
 
-# A file of a version before, in which a memory was half as long: made from one of today, and loaded with what it remembers.
+# A file of a version before, in which a memory was half as long: made from one of today, and loaded with what it
+# remembers.
 scene()
 run(1500)
 expected = {(c.id1, c.id2): c.geom.memory for c in O.interactions if c.isReal}
@@ -120,9 +122,10 @@ run(2)
 check.true(not pair.isReal and pair.geom.memory.strip("0"), "memory is made again where there is none")
 check.equal(functor().overlapping, 0, "and the pair stays apart")
 
-# A file that was cut off, as by a kill while it was written: an error, and the next scene can be loaded. (In XML, YADE's
-# own reader ends the process if nothing but the last tag is missing, with spheres too: that is not asked for here. Nor is
-# the loss of gzip's check sum alone, the last eight bytes: the scene itself is whole then. So 24 bytes at least are cut.)
+# A file that was cut off, as by a kill while it was written: an error, and the next scene can be loaded. (In XML,
+# YADE's own reader ends the process if nothing but the last tag is missing, with spheres too: that is not asked for
+# here. Nor is the loss of gzip's check sum alone, the last eight bytes: the scene itself is whole then. So 24 bytes at
+# least are cut.)
 scene()
 run(10)
 for ending in ("yade.gz", "yade.bz2", "yade"):
@@ -142,8 +145,8 @@ for z in (0, 0.98):
 run(2)
 depth = O.interactions[0, 1].geom.penetrationDepth
 check.equal(type(O.interactions[0, 1].geom).__name__, "ScGeom", "made by the built-in functor")
-ours = yade.InteractionLoop([yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False)], [yade.Ip2_FrictMat_FrictMat_KnKsPhys()],
-                            [yade.Law2_SCG_KnKsPhys_KnKsLaw()])
+ours = yade.InteractionLoop([yade.Ig2_PP_PP_ScGeom_Conic(calContactArea=False)],
+                            [yade.Ip2_FrictMat_FrictMat_KnKsPhys()], [yade.Law2_SCG_KnKsPhys_KnKsLaw()])
 O.engines = O.engines[:2] + [ours] + O.engines[3:]
 name = os.path.join(folder, "foreign.xml")
 O.save(name)

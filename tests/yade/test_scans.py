@@ -1,5 +1,5 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
-# Surfaces of many facets as shapes of few planes, voxels as bodies in place, surfaces that are not convex as clumps: volumes and places against those given.
+# SPDX-License-Identifier: GPL-3.0-or-later Surfaces of many facets as shapes of few planes, voxels as bodies in place,
+# surfaces that are not convex as clumps: volumes and places against those given.
 import os
 import sys
 import tempfile
@@ -35,7 +35,9 @@ def write(points, triangles, name):
 
 
 def surface_distance(shape, points):
-    """How far points lie from the surface of a shape, by bisection along its rays, over the diameter of the ball of its volume: never less than the true one."""
+    """How far points lie from the surface of a shape, by bisection along its rays, over the diameter of the ball of its
+    volume: never less than the true one.
+    """
     w, x, y, z = shape.orientation
     back = Quaternion(w, x, y, z).conjugate().toRotationMatrix()
     local = (points - np.array(shape.centroid)) @ np.array([[back[i, j] for j in range(3)] for i in range(3)]).T
@@ -43,7 +45,8 @@ def surface_distance(shape, points):
     for _ in range(60):
         middle = 0.5 * (low + high)
         at = middle[:, None] * local
-        s = (1 - shape.k) / shape.r**2 * (np.maximum(at @ planes[:, :3].T - planes[:, 3], 0.0) ** 2).sum(1) + shape.k / shape.R**2 * (at**2).sum(1)
+        s = (1 - shape.k) / shape.r**2 * (np.maximum(at @ planes[:, :3].T - planes[:, 3], 0.0)**
+                                          2).sum(1) + shape.k / shape.R**2 * (at**2).sum(1)
         low, high = np.where(s < 1, middle, low), np.where(s < 1, high, middle)
     return np.abs(1 - low) * np.linalg.norm(local, axis=1) / shape.equivalent_diameter
 
@@ -54,8 +57,9 @@ points = random.normal(size=(1000, 3))
 points = points / np.linalg.norm(points, axis=1)[:, None] * (1.0, 0.8, 0.6) + (30, -20, 10)
 hull = ConvexHull(points)
 middle = hull.points[hull.simplices].mean(1)
-outward = ((np.cross(points[hull.simplices[:, 1]] - points[hull.simplices[:, 0]], points[hull.simplices[:, 2]] - points[hull.simplices[:, 0]])
-            * (middle - points.mean(0))).sum(1) > 0)
+outward = ((np.cross(points[hull.simplices[:, 1]] - points[hull.simplices[:, 0]],
+                     points[hull.simplices[:, 2]] - points[hull.simplices[:, 0]]) * (middle - points.mean(0))).sum(1)
+           > 0)
 triangles = np.where(outward[:, None], hull.simplices, hull.simplices[:, ::-1])
 file = write(points, triangles, "scan")
 errors = []
@@ -66,16 +70,20 @@ for planes in 12, 30, 100:
     check.close(shape.fit.volume / hull.volume, 1.0, 1e-6, "which is told")
     check.close(Vector3(*shape.centroid), Vector3(30, -20, 10), 0.03, "where the scan stands")
     found = surface_distance(shape, np.concatenate([points, middle]))
-    check.true(0.5 * found.max() < shape.fit.largest <= found.max() * 1.001, f"the error that is told: {shape.fit.largest}, along rays {found.max()}")
+    check.true(0.5 * found.max() < shape.fit.largest <= found.max() * 1.001,
+               f"the error that is told: {shape.fit.largest}, along rays {found.max()}")
     check.true(0.5 < shape.fit.mean / np.sqrt((found**2).mean()) <= 1.001, "and in the mean")
-    check.true(f"{shape.fit.largest:.2g} of its diameter" in repr(shape) and "\n" not in repr(shape), "its line says so")
+    check.true(f"{shape.fit.largest:.2g} of its diameter" in repr(shape) and "\n" not in repr(shape),
+               "its line says so")
     errors.append(shape.fit.mean)
 check.true(errors[0] > 1.5 * errors[1] > 2.25 * errors[2], f"more planes come nearer: {errors}")
 check.close(shape.scaled(2.0).fit.volume, 8 * shape.fit.volume, 1e-9, "scaled")
 exact = shapes.from_mesh(file, error=0.03)
 check.true(exact.fit.largest <= 0.03 and len(exact.planes) < 40, f"a given error: {exact}")
-check.raises(ValueError, lambda: shapes.from_mesh(file, error=1e-7), "an error that is not reached", "error=1e-07 is not reached")
-check.raises(ValueError, lambda: shapes.from_mesh(file, error=0.001, planes=20), "nor with so few planes", "up to 20 planes")
+check.raises(ValueError, lambda: shapes.from_mesh(file, error=1e-7), "an error that is not reached",
+             "error=1e-07 is not reached")
+check.raises(ValueError, lambda: shapes.from_mesh(file, error=0.001, planes=20), "nor with so few planes",
+             "up to 20 planes")
 check.raises(ValueError, lambda: shapes.from_mesh(file, planes=3), "three planes", "planes=3")
 given = shapes.from_vertices(points, planes=30, rounding=0.05)
 check.close(given.volume / hull.volume, 1.0, 1e-4, "a given r keeps the volume, too")
@@ -83,15 +91,20 @@ check.close(given.r / shapes.from_vertices(points, planes=30, rounding=0.1).r, 0
 
 # All faces: r gives way to the volume, and says so where it may not.
 shape, said = told(lambda: shapes.from_mesh(file))
-check.true(len(shape.planes) <= 60 and len(said) == 1 and "60 planes in the place of" in said[0] and f"{shape.fit.largest:.2g}" in said[0], f"by default few: {said}")
+check.true(
+    len(shape.planes) <= 60 and len(said) == 1 and "60 planes in the place of" in said[0]
+    and f"{shape.fit.largest:.2g}" in said[0], f"by default few: {said}")
 check.close(shape.volume / hull.volume, 1.0, 1e-4, "which keep the volume")
 shape, said = told(lambda: shapes.from_mesh(file, planes="all"))
 check.true(len(shape.planes) > 1900, f"all of them: {len(shape.planes)}")
-check.true(0.985 < shape.volume / hull.volume < 0.995 and not said, f"all faces, r chosen: {shape.volume / hull.volume}, {said}")
+check.true(0.985 < shape.volume / hull.volume < 0.995 and not said,
+           f"all faces, r chosen: {shape.volume / hull.volume}, {said}")
 shape, said = told(lambda: shapes.from_mesh(file, rounding=0.05, planes="all"))
-check.true(len(said) == 1 and "% less volume than the surface" in said[0] and f"{shape.r:.3g}" in said[0], f"r = 0.05: {said}")
+check.true(
+    len(said) == 1 and "% less volume than the surface" in said[0] and f"{shape.r:.3g}" in said[0], f"r = 0.05: {said}")
 corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)], float)
-faces = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+faces = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
+         (1, 5, 7), (1, 7, 3)]
 cube, said = told(lambda: shapes.from_mesh(write(corners, faces, "cube")))
 check.equal((len(cube.planes), said), (6, []), "a cube has its six faces")
 check.close(cube.r, 0.1, 1e-9, "and the default r, which costs less than a hundredth")
@@ -108,13 +121,16 @@ VOLUME = 0.6 * (2 * 0.5 + 0.5)
 shape, said = told(lambda: shapes.from_mesh(ell, hull=True))
 check.true(len(said) == 1 and "more volume" in said[0] and "clump_from_mesh" in said[0], f"the hull of an L: {said}")
 shape, said = told(lambda: shapes.from_mesh(ell, hull=True, planes=12))
-check.true(abs(shape.volume / VOLUME - 1) < 1e-3 and not said and shape.fit.largest > 0.1, f"its volume can be kept, its form cannot: {shape}, {said}")
+check.true(
+    abs(shape.volume / VOLUME - 1) < 1e-3 and not said and shape.fit.largest > 0.1,
+    f"its volume can be kept, its form cannot: {shape}, {said}")
 
 # Cut by hand, in the place of the packages that cut.
 real = {name: sys.modules.get(name) for name in ("coacd", "vhacdx")}
 sys.modules.update(coacd=None, vhacdx=None)
 check.raises(ImportError, lambda: shapes.clump_from_mesh(ell), "neither is there", "pip install")
-boxes = [[(x, y, z) for x in xs for y in ys for z in (0, 0.6)] for xs, ys in (((0, 2), (0, 0.5)), ((0, 0.5), (0.4, 1.5)))]
+boxes = [[(x, y, z) for x in xs for y in ys for z in (0, 0.6)]
+         for xs, ys in (((0, 2), (0, 0.5)), ((0, 0.5), (0.4, 1.5)))]
 asked = {}
 
 
@@ -125,7 +141,8 @@ def cut(mesh, **settings):
 
 sys.modules["coacd"] = types.SimpleNamespace(set_log_level=lambda level: None, Mesh=lambda *mesh: mesh, run_coacd=cut)
 parts = shapes.clump_from_mesh(ell, parts=5, concavity=0.1)
-check.equal((asked["max_convex_hull"], asked["threshold"], round(asked["size"], 6)), (5, 0.1, 1.0), "what the cutter is asked for")
+check.equal((asked["max_convex_hull"], asked["threshold"], round(asked["size"], 6)), (5, 0.1, 1.0),
+            "what the cutter is asked for")
 # They share 0.5 x 0.1 x 0.6, which the union counts once.
 check.true(len(parts.shapes) == 2 and abs(parts.error) < 3e-3, f"two parts, whose union is the L: {parts}")
 check.close(parts.volume, VOLUME, 1e-6, "the volume of the surface")
@@ -137,9 +154,12 @@ centre = Vector3(*((0.5 * np.array([1, 0.25]) + 0.25 * np.array([0.25, 1])) / 0.
 check.close(O.bodies[number].state.pos, centre, 5e-3, "which stands where the file has it")
 open_one = write(solid, [(a, c, b) for a, b, c in cap] + sides, "open")
 check.raises(ValueError, lambda: shapes.clump_from_mesh(open_one), "an open surface", "close it, or")
-sys.modules.update(coacd=None, vhacdx=types.SimpleNamespace(
-    compute_vhacd=lambda points, faces, **_: [((np.array(box) - (1, 0.75, 0.3)) / 2, None) for box in boxes if faces[0] == 3]))
-check.close(shapes.clump_from_mesh(ell).error, parts.error, 1e-9, "V-HACD, whose faces begin with their number of corners")
+sys.modules.update(
+    coacd=None,
+    vhacdx=types.SimpleNamespace(compute_vhacd=lambda points, faces, **_: [((np.array(box) - (1, 0.75, 0.3)) / 2, None)
+                                                                           for box in boxes if faces[0] == 3]))
+check.close(
+    shapes.clump_from_mesh(ell).error, parts.error, 1e-9, "V-HACD, whose faces begin with their number of corners")
 for name, module in real.items():
     sys.modules.pop(name)
     if module is not None:
@@ -154,7 +174,8 @@ for number, corner in enumerate([(0, 0, 0), (0, N, N), (N, 0, N)], 1):
     place = np.array([0.13, 0.12, 0.135])
     at = grid[:, ::-1] * EDGE - place
     planes = np.array(rock.planes)
-    s = (1 - rock.k) / rock.r**2 * (np.maximum(at @ planes[:, :3].T - planes[:, 3], 0.0) ** 2).sum(1) + rock.k / rock.R**2 * (at**2).sum(1)
+    s = (1 - rock.k) / rock.r**2 * (np.maximum(at @ planes[:, :3].T - planes[:, 3], 0.0)**
+                                    2).sum(1) + rock.k / rock.R**2 * (at**2).sum(1)
     image[tuple(slice(c, c + N) for c in corner)] = np.where(s <= 1, number, 0).reshape(N, N, N)
     rocks[number] = rock, place + np.array(corner)[::-1] * EDGE
 image[-2:, -2:, -2:] = 7
@@ -174,7 +195,8 @@ for number, (one, body) in enumerate(zip(grains, ids), 1):
 touching = shapes.from_voxels(np.pad(image, 1)[1:, 1:, 1:], spacing=EDGE, border=False, least=8, progress=False)
 check.equal(touching.left_out.get(7), None, "eight voxels are enough if one says so")
 image[0, N // 2, N // 2] = 1
-check.true("touches the border" in shapes.from_voxels(image, border=False, progress=False).left_out[1], "cut off by the border")
+check.true("touches the border" in shapes.from_voxels(image, border=False, progress=False).left_out[1],
+           "cut off by the border")
 
 # The same from a file.
 from PIL import Image  # noqa: E402
@@ -182,9 +204,11 @@ pages = [Image.fromarray(page) for page in image]
 path = os.path.join(folder, "labels.tif")
 pages[0].save(path, save_all=True, append_images=pages[1:])
 again = shapes.from_voxels(path, spacing=EDGE, planes=20, progress=False)
-check.equal([one.shape.volume for one in again], [one.shape.volume for one in shapes.from_voxels(image, EDGE, 20, progress=False)], "from a .tif file")
-for bad, words in ((np.zeros((3, 3, 3), int), "no grain"), (np.zeros((3, 3), int), "three axes"), (np.full((3, 3, 3), 0.5), "whole numbers"),
-                   (np.full((3, 3, 3), -1), "range from -1"), (path + "f", "is no file"), (file, "cannot be read as .tif")):
+check.equal([one.shape.volume for one in again],
+            [one.shape.volume for one in shapes.from_voxels(image, EDGE, 20, progress=False)], "from a .tif file")
+for bad, words in ((np.zeros((3, 3, 3), int), "no grain"), (np.zeros((3, 3), int), "three axes"), (np.full(
+    (3, 3, 3), 0.5), "whole numbers"), (np.full(
+        (3, 3, 3), -1), "range from -1"), (path + "f", "is no file"), (file, "cannot be read as .tif")):
     check.raises(ValueError, lambda: shapes.from_voxels(bad), f"{words}", words)
 
 

@@ -41,10 +41,11 @@ way = Vector3(17, 9, 0)
 for name, triangles in ("fine", fine), ("coarse", coarse):
     for law, physics in ("friction", friction_physics), ("area", area_physics):
         slide(ball(0.2), 0.19, triangles, physics(), way, 400, f"ball, {name} floor, law of {law}")
-        slide(cube(0.05, 0.3, 0.3, 0.2), cube(0.05, 0.3, 0.3, 0.2).surfaceDistance([(0, 0, -1)])[0] - 1e-3, triangles, physics(), way,
-              400, f"rounded cube, {name} floor, law of {law}")
-        slide(sharp_cube(0.1, 0.01), 0.099, triangles, physics(), way, 400, f"cube with k = 0, {name} floor, law of {law}",
-              turned((0, 0, 1), 0.3))
+        slide(cube(0.05, 0.3, 0.3, 0.2),
+              cube(0.05, 0.3, 0.3, 0.2).surfaceDistance([(0, 0, -1)])[0] - 1e-3, triangles, physics(), way, 400,
+              f"rounded cube, {name} floor, law of {law}")
+        slide(sharp_cube(0.1, 0.01), 0.099, triangles, physics(), way, 400,
+              f"cube with k = 0, {name} floor, law of {law}", turned((0, 0, 1), 0.3))
 slide(ball(0.2), 0.19, fine, friction_physics(), way, 400, "ball in the loop of ours", loop=yade.ConicInteractionLoop)
 
 
@@ -67,7 +68,8 @@ for triangles, text in (floor(1, 2), "six facets"), (floor(1, 2, flip=True), "fo
     for shape, height in (ball(0.3), 0.29), (sharp_cube(0.3, 0.02), 0.29), (cube(0.05, 0.05, 0.5, 0.3), None):
         height = height or shape.surfaceDistance([(0, 0, -1)])[0] - 0.01
         for offset in (0, 0, 0), (1e-17, -1e-17, 0), (1e-12, 3e-13, 0), (0.1, 0.1, 0):
-            resting(shape, Vector3(0, 0, height) + Vector3(offset), triangles, f"over {text}, offset {offset[0]}", 1, 0.01)
+            resting(shape,
+                    Vector3(0, 0, height) + Vector3(offset), triangles, f"over {text}, offset {offset[0]}", 1, 0.01)
 
 # On the ridge of a roof with slopes of 45 degrees, and on its way over it.
 roof = [[(-2, -2, -2), (0, -2, 0), (0, 2, 0)], [(-2, -2, -2), (0, 2, 0), (-2, 2, -2)],
@@ -88,7 +90,8 @@ for y in (0.0, 0.3, 1.0):
     resting(ball(0.3), (0, y, math.sqrt(2) * 0.29), valley, f"in a valley, {y}", 2, 0.01)
     resting(ball(0.3), (0.1, y, 0.1 + math.sqrt(2) * 0.29), valley, "off its middle", 1, 0.01)
 base = floor(1, 4)
-walls = base + [[(-1, y, x + 1) for x, y, z in three] for three in base] + [[(x, -1, y + 1) for x, y, z in three] for three in base]
+walls = base + [[(-1, y, x + 1) for x, y, z in three] for three in base] + [[(x, -1, y + 1) for x, y, z in three]
+                                                                            for three in base]
 resting(ball(0.3), (-0.71, -0.71, 0.29), walls, "in a corner of three walls", 3, 0.01)
 resting(sharp_cube(0.3, 0.02), (-0.71, -0.71, 0.29), walls, "a cube in that corner", 3, 0.01)
 resting(ball(0.3), (-0.71, 0.1, 0.29), walls, "at the edge of two walls", 2, 0.01)

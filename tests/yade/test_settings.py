@@ -3,8 +3,8 @@
 # Settings change from Python while O.run() steps: each answer belongs to one whole value of them, and what was
 # replaced is freed when no step can be reading it.
 #
-# Why that suffices without a lock: the thread that sets writes a value nobody else has yet and then stores one pointer to
-# it; a thread that answers loads this pointer once. Every order of the two is one of: the old value, the new one.
+# Why that suffices without a lock: the thread that sets writes a value nobody else has yet and then stores one pointer
+# to it; a thread that answers loads this pointer once. Every order of the two is one of: the old value, the new one.
 import builtins
 import sys
 import time
@@ -43,7 +43,8 @@ def answers():
 
 # A refused update leaves everything as it was, what was set before the refusal too.
 before = contacts.dict()
-for wrong in ({"tolerance": 1e-6, "nonsense": 1}, {"tolerance": -1.0, "nonsense": 1}, {"unitWidth2D": 3.0, "areaTolerance": "a word"}):
+for wrong in ({"tolerance": 1e-6, "nonsense": 1}, {"tolerance": -1.0,
+                                                   "nonsense": 1}, {"unitWidth2D": 3.0, "areaTolerance": "a word"}):
     try:
         contacts.updateAttrs(wrong)
         check.true(False, f"{wrong} is accepted")

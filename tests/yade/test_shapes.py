@@ -32,7 +32,9 @@ everywhere = random.normal(size=(4000, 3))
 
 
 def reach(shape, direction):
-    """How far the surface goes along a direction of the builder's frame: by Newton's method on its normal, from many points."""
+    """How far the surface goes along a direction of the builder's frame: by Newton's method on its normal, from many
+    points.
+    """
     normals = rotation(shape).T @ (np.asarray(direction, float) / np.linalg.norm(direction))
     planes = np.array(shape.planes).reshape(-1, 4)
     # Maximise n.x subject to S(x) = 1: by scipy, an independent way.
@@ -46,7 +48,8 @@ def reach(shape, direction):
         beyond = np.maximum(planes[:, :3] @ x - planes[:, 3], 0.0)
         return 2 * (1 - shape.k) / shape.r**2 * (beyond @ planes[:, :3]) + 2 * shape.k / shape.R**2 * x
     start = normals * shape.particle().surfaceDistance([Vector3(*normals)])[0]
-    found = minimize(lambda x: -normals @ x, start, jac=lambda x: -normals, method="SLSQP", options={"ftol": 1e-12, "maxiter": 500},
+    found = minimize(lambda x: -normals @ x, start, jac=lambda x: -normals, method="SLSQP",
+                     options={"ftol": 1e-12, "maxiter": 500},
                      constraints={"type": "ineq", "fun": lambda x: 1 - s(x), "jac": lambda x: -slope(x)})
     return -found.fun + np.dot(shape.centroid, direction) / np.linalg.norm(direction)
 
@@ -88,13 +91,17 @@ check.close(ball.inertia[0] / (0.4 * 4 * ball.volume), 1.0, 1e-6, "inertia of a 
 check.close(ball.equivalent_diameter, 4.0, 1e-5, "its diameter")
 for sides in (3, 6, 7):
     area = sides * 0.25 * math.tan(math.pi / sides)
-    check.close(shapes.prism(sides, 0.5, 2.0, **sharp).volume / (2 * area), 1.0, 1e-5, f"volume of a prism of {sides} sides")
+    check.close(
+        shapes.prism(sides, 0.5, 2.0, **sharp).volume / (2 * area), 1.0, 1e-5, f"volume of a prism of {sides} sides")
 cylinder = shapes.cylinder(0.5, 2.0, 48, **sharp)
 check.close(cylinder.volume / (math.pi / 2), 1.0, 1e-4, "volume of a cylinder")
 pyramid = shapes.prism(4, 0.5, 1.0, top_radius=0.0, **sharp)
 check.close(pyramid.volume * 3, 1.0, 1e-5, "volume of a pyramid")
 check.close(pyramid.centroid[2], -0.25, 1e-5, "centroid of a pyramid: a quarter of its height above the base")
-volumes = {4: 1 / (6 * math.sqrt(2)), 6: 1.0, 8: math.sqrt(2) / 3, 12: (15 + 7 * math.sqrt(5)) / 4, 20: 5 * (3 + math.sqrt(5)) / 12}
+volumes = {
+    4: 1 / (6 * math.sqrt(2)), 6: 1.0, 8: math.sqrt(2) / 3, 12: (15 + 7 * math.sqrt(5)) / 4, 20: 5 *
+                                                                                                 (3 + math.sqrt(5)) / 12
+}
 for faces, volume in volumes.items():
     solid = shapes.platonic_solid(faces, edge=2.0, **sharp)
     check.close(solid.volume / (8 * volume), 1.0, 1e-5, f"volume of the regular solid of {faces} faces")
@@ -145,36 +152,49 @@ with warnings.catch_warnings(record=True) as said:
     check.close(share.r, 0.01, 1e-15, "and a share of the size by another keyword")
     check.equal(shapes.cuboid((0.4, 0.2, 0.3), 0.05, 0.0), share, "which is the one without a name, as before")
     check.close(shapes.cuboid((4, 2, 3), R=3.0).R, 3.0, 1e-12, "R is a length")
-    check.raises(ValueError, lambda: shapes.cuboid((0.04, 0.02, 0.03), r=0.05), "r of before", "r=0.05 is a length and must lie between 0 and 0.01, half")
+    check.raises(ValueError, lambda: shapes.cuboid((0.04, 0.02, 0.03), r=0.05), "r of before",
+                 "r=0.05 is a length and must lie between 0 and 0.01, half")
 check.equal([one.category for one in said], [FutureWarning], "once a process")
 check.true("r=0.05 of then is rounding=0.05" in str(said[0].message), f"{said[0].message}")
 
 # Bad input: a sentence that names the value.
 nan = float("nan")
-for action, words in [
-        (lambda: shapes.sphere(-1), "radius=-1"), (lambda: shapes.sphere(nan), "radius=nan"), (lambda: shapes.sphere("a"), "is no number"),
-        (lambda: shapes.cuboid((1, 1, 0)), "above 0"), (lambda: shapes.cuboid((1, 1)), "has 2 numbers"),
-        (lambda: shapes.cuboid(rounding=0), "rounding=0"), (lambda: shapes.cuboid(rounding=0.5), "between 0 and 0.5"), (lambda: shapes.cuboid(k=-0.1), "k=-0.1"),
-        (lambda: shapes.cuboid(k=1.5), "k=1.5"), (lambda: shapes.cuboid(k=nan), "k=nan"), (lambda: shapes.cuboid(k=0.1, R=0), "R=0"),
-        (lambda: shapes.prism(2), "sides"), (lambda: shapes.prism(6, 0.5, -1), "height=-1"), (lambda: shapes.cylinder(0), "radius=0"),
-        (lambda: shapes.platonic_solid(5), "faces=5"), (lambda: shapes.platonic_solid(8, edge=nan), "edge=nan"),
-        (lambda: shapes.random_rock(-1), "seed"), (lambda: shapes.random_rock(1, elongation=0), "elongation=0"),
-        (lambda: shapes.random_rock(1, flatness=2), "flatness=2"), (lambda: shapes.random_rock(1, faces=4), "faces"),
-        (lambda: shapes.from_planes([]), "planes is empty"), (lambda: shapes.from_planes([(1, 0, 0)]), "row 0 has 3 numbers"),
-        (lambda: shapes.from_planes([(1, 0, 0, nan)]), "row 0"),
-        (lambda: shapes.from_planes([(0, 0, 0, 1)] + planes), "plane 0 is none"),
-        (lambda: shapes.from_planes(planes[:4], k=0.0), "enclose no volume"), (lambda: shapes.from_planes(planes[1:], k=0.1), "enclose no volume"),
-        (lambda: shapes.from_planes([(1, 0, 0, 1), (-1, 0, 0, 1)]), "enclose no volume"),
-        (lambda: shapes.from_planes([(1, 0, 0, -1), (-1, 0, 0, -1), (0, 1, 0, 1), (0, -1, 0, 1), (0, 0, 1, 1), (0, 0, -1, 1)]), "no point lies inside"),
-        (lambda: shapes.from_vertices([]), "0 points"), (lambda: shapes.from_vertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (2, 1, 0)]), "flat"),
-        (lambda: shapes.from_vertices([(0, 0, 0)] * 9), "flat"), (lambda: shapes.from_vertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (nan, 1, 1)]), "row 3"),
-        (lambda: ball.scaled(0), "factor=0")]:
+for action, words in [(lambda: shapes.sphere(-1), "radius=-1"), (lambda: shapes.sphere(nan), "radius=nan"),
+                      (lambda: shapes.sphere("a"), "is no number"), (lambda: shapes.cuboid((1, 1, 0)), "above 0"),
+                      (lambda: shapes.cuboid(
+                          (1, 1)), "has 2 numbers"), (lambda: shapes.cuboid(rounding=0), "rounding=0"),
+                      (lambda: shapes.cuboid(rounding=0.5), "between 0 and 0.5"),
+                      (lambda: shapes.cuboid(k=-0.1), "k=-0.1"), (lambda: shapes.cuboid(k=1.5), "k=1.5"),
+                      (lambda: shapes.cuboid(k=nan), "k=nan"), (lambda: shapes.cuboid(k=0.1, R=0), "R=0"),
+                      (lambda: shapes.prism(2), "sides"), (lambda: shapes.prism(6, 0.5, -1), "height=-1"),
+                      (lambda: shapes.cylinder(0), "radius=0"), (lambda: shapes.platonic_solid(5), "faces=5"),
+                      (lambda: shapes.platonic_solid(8, edge=nan), "edge=nan"),
+                      (lambda: shapes.random_rock(-1), "seed"),
+                      (lambda: shapes.random_rock(1, elongation=0), "elongation=0"),
+                      (lambda: shapes.random_rock(1, flatness=2), "flatness=2"),
+                      (lambda: shapes.random_rock(1, faces=4), "faces"),
+                      (lambda: shapes.from_planes([]), "planes is empty"),
+                      (lambda: shapes.from_planes([(1, 0, 0)]), "row 0 has 3 numbers"),
+                      (lambda: shapes.from_planes([(1, 0, 0, nan)]), "row 0"),
+                      (lambda: shapes.from_planes([(0, 0, 0, 1)] + planes), "plane 0 is none"),
+                      (lambda: shapes.from_planes(planes[:4], k=0.0), "enclose no volume"),
+                      (lambda: shapes.from_planes(planes[1:], k=0.1), "enclose no volume"),
+                      (lambda: shapes.from_planes([(1, 0, 0, 1), (-1, 0, 0, 1)]), "enclose no volume"),
+                      (lambda: shapes.from_planes([(1, 0, 0, -1), (-1, 0, 0, -1), (0, 1, 0, 1), (0, -1, 0, 1),
+                                                   (0, 0, 1, 1), (0, 0, -1, 1)]), "no point lies inside"),
+                      (lambda: shapes.from_vertices([]), "0 points"),
+                      (lambda: shapes.from_vertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0), (2, 1, 0)]), "flat"),
+                      (lambda: shapes.from_vertices([(0, 0, 0)] * 9), "flat"),
+                      (lambda: shapes.from_vertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (nan, 1, 1)]), "row 3"),
+                      (lambda: ball.scaled(0), "factor=0")]:
     check.raises(ValueError, action, f"bad input: {words}", words)
 check.equal(len(O.bodies), 0, "nothing was put into the scene")
 # Printed, a shape is a line, and so is a place in a packing.
 rock = shapes.random_rock(1, size=0.1)
-check.true("\n" not in repr(rock) and len(repr(rock)) < 140 and "24 planes" in repr(rock) and rock.name in repr(rock), f"printed: {rock}")
-place = potential_particles.pack(potential_particles.packing.Box((0, 0, 0), (1, 1, 1)), rock, number=1, progress=False)[0]
+check.true("\n" not in repr(rock) and len(repr(rock)) < 140 and "24 planes" in repr(rock) and rock.name in repr(rock),
+           f"printed: {rock}")
+place = potential_particles.pack(potential_particles.packing.Box((0, 0, 0), (1, 1, 1)), rock, number=1,
+                                 progress=False)[0]
 check.true(len(repr(place)) < 400 and repr(rock) in repr(place), f"printed: {place}")
 
 
@@ -184,7 +204,8 @@ for name, make, words in [
     ("a large sphere", lambda: shapes.sphere(1e300), "radius=1e+300"),
     ("R", lambda: shapes.cuboid(R=1e-110), "R=1e-110"),
     ("a small cuboid", lambda: shapes.cuboid((1e-60, 1e-60, 1e-60)), "edges=1e-60 must be at least"),
-    ("points", lambda: shapes.from_vertices([(1e200, 0, 0), (0, 1, 0), (0, 0, 1), (0, 0, 0)]), "points 0=(1e+200, 0, 0)"),
+    ("points", lambda: shapes.from_vertices([(1e200, 0, 0), (0, 1, 0), (0, 0, 1),
+                                             (0, 0, 0)]), "points 0=(1e+200, 0, 0)"),
     ("scaled", lambda: shapes.sphere(1e-30).scaled(1e-30), "bounding radius"),
     ("sides of a prism", lambda: shapes.prism(10**9), "sides=1000000000"),
     ("sides of a cylinder", lambda: shapes.cylinder(sides=10**12), "sides=1000000000000"),
@@ -193,6 +214,8 @@ for name, make, words in [
 ]:
     check.raises(ValueError, make, name, words)
 for length in (1e200, 1e-200):
-    rows_of_cube = [(length * a, length * b, length * c, length) for a, b, c in [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]]
-    check.close(shapes.from_planes(rows_of_cube, rounding=1e-4, k=0.0).volume, 8.0, 1e-3, f"normals of length {length:g}")
+    rows_of_cube = [(length * a, length * b, length * c, length)
+                    for a, b, c in [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]]
+    check.close(
+        shapes.from_planes(rows_of_cube, rounding=1e-4, k=0.0).volume, 8.0, 1e-3, f"normals of length {length:g}")
 check.finish()

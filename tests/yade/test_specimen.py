@@ -33,8 +33,11 @@ many = [sampled_porosity((-1, -1, -1), (1, 1, 1), lines=500, seed=seed) for seed
 held = sum(abs(value - (1 - balls / 8)) <= error for value, error in many)
 check.true(51 <= held, f"the error holds in 95 % of cases: {held} of {len(many)}")
 check.true(sum(error for _, error in many) / len(many) < 3e-3, "and is small with few lines, too")
-check.equal(sampled_porosity((-1, -1, -1), (1, 1, 1), seed=3), sampled_porosity((-1, -1, -1), (1, 1, 1), seed=3), "the same seed")
-check.true(potential_particles.porosity((-1, -1, -1), (1, 1, 1)) < 1 - balls / 8 - 0.5 * lens / 8, "porosity() counts the overlap twice")
+check.equal(sampled_porosity((-1, -1, -1), (1, 1, 1), seed=3), sampled_porosity((-1, -1, -1), (1, 1, 1), seed=3),
+            "the same seed")
+check.true(
+    potential_particles.porosity((-1, -1, -1), (1, 1, 1)) < 1 - balls / 8 - 0.5 * lens / 8,
+    "porosity() counts the overlap twice")
 # What lies outside of the box does not count: an eighth of a ball.
 start()
 O.bodies.append(utils.sphere((0, 0, 0), R, material=0))
@@ -67,8 +70,8 @@ check.raises(ValueError, lambda: sampled_porosity((1, 0, 0), (0, 1, 1)), "no vol
 # A packing of a grading curve has it: each row within the share of the largest body.
 start()
 wanted = [(0.04, 0.0), (0.06, 0.3), (0.09, 0.7), (0.13, 1.0)]
-bodies = potential_particles.pack(packing.Box((0, 0, 0), (0.8, 0.8, 1.0)), [shapes.random_rock(i) for i in range(5)], sizes=wanted, shares="passing",
-                                  number=400, progress=False)
+bodies = potential_particles.pack(packing.Box((0, 0, 0), (0.8, 0.8, 1.0)), [shapes.random_rock(i) for i in range(5)],
+                                  sizes=wanted, shares="passing", number=400, progress=False)
 potential_particles.add_packing(bodies)
 curve = potential_particles.grading_curve()
 largest = max(b.state.mass for b in O.bodies) / sum(b.state.mass for b in O.bodies)
@@ -85,7 +88,8 @@ number = potential_particles.clump(pair)
 (size, passing), = potential_particles.grading_curve()
 check.close(math.pi / 6 * size**3 * 1000, O.bodies[number].state.mass, 1e-9, "size of a clump")
 check.close(potential_particles.solid_volume() * 1000, O.bodies[number].state.mass, 1e-9, "solid volume of a clump")
-holds(sampled_porosity((-0.5, -0.5, -0.5), (0.7, 0.7, 0.7)), 1 - O.bodies[number].state.mass / 1000 / 1.2**3, "porosity about a clump")
+holds(sampled_porosity((-0.5, -0.5, -0.5), (0.7, 0.7, 0.7)), 1 - O.bodies[number].state.mass / 1000 / 1.2**3,
+      "porosity about a clump")
 start()
 check.raises(ValueError, potential_particles.grading_curve, "no grain", "no grading curve")
 

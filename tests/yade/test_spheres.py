@@ -13,7 +13,9 @@ from yade import utils
 def attributes():
     """Of every class of YADE, and of its module of functions."""
     classes = {name: one for name, one in vars(yade.wrapper).items() if isinstance(one, type)}
-    return {(name, key): value for name, one in [*classes.items(), ("utils", utils)] for key, value in vars(one).items()}
+    return {(name, key): value
+            for name, one in [*classes.items(), ("utils", utils)]
+            for key, value in vars(one).items()}
 
 
 before = attributes()
@@ -23,8 +25,10 @@ from harness import *
 check = Checks()
 ours = potential_particles._glue.class_names
 replaced = {name for name, value in attributes().items() if before.get(name) is not value and name[0] not in ours}
-check.equal(replaced, {("Body", "shape")} | {("Omega", name) for name in ("run", "step", "load")}
-            | {("PotentialParticle", name) for name in ("a", "b", "c", "d", "vertices", "updateAttrs")}, "what the import replaces or adds")
+check.equal(replaced, {("Body", "shape")} | {("Omega", name)
+                                             for name in ("run", "step", "load")}
+            | {("PotentialParticle", name)
+               for name in ("a", "b", "c", "d", "vertices", "updateAttrs")}, "what the import replaces or adds")
 
 # Spheres that fall on each other, while the prompt makes bodies that it does not add.
 O.engines = [yade.ForceResetter(), yade.InsertionSortCollider([yade.Bo1_Sphere_Aabb()]),
@@ -54,7 +58,8 @@ O.bodies[ids[0]].shape = yade.Sphere(radius=0.75)
 check.true(O.bodies.erase(ids[3]), "a body is erased")
 O.bodies.clump(ids[1:3])
 O.interactions.clear()
-check.equal((len([b for b in O.bodies]), O.bodies[ids[0]].shape.radius, O.running), (4, 0.75, True), "changed while it steps")
+check.equal((len([b for b in O.bodies]), O.bodies[ids[0]].shape.radius, O.running), (4, 0.75, True),
+            "changed while it steps")
 O.bodies.clear()
 check.equal((len(O.bodies), O.running), (0, True), "and emptied")
 halt()

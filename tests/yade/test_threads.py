@@ -48,7 +48,8 @@ fresh_scene(yade.Ig2_PP_PP_ScGeom_Conic(), dt=1e-9)
 O.materials.append(yade.CohFrictMat())
 add(cube(), Vector3(0, 0, 0))
 potential_particles.prepare()
-check.true(("CohFrictMat", "CohFrictMat") in O.engines[2].physDispatcher.dispMatrix(), "prepare() and a derived material")
+check.true(("CohFrictMat", "CohFrictMat") in O.engines[2].physDispatcher.dispMatrix(),
+           "prepare() and a derived material")
 
 
 def heap(functor_):

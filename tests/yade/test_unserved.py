@@ -14,7 +14,10 @@ def said(action):
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         action()
-    return [str(one.message) for one in caught if one.category is potential_particles.SceneWarning and "no functor" in str(one.message)]
+    return [
+        str(one.message) for one in caught
+        if one.category is potential_particles.SceneWarning and "no functor" in str(one.message)
+    ]
 
 
 def scene(functors, *shapes, **keywords):
@@ -31,13 +34,16 @@ for name, shape in ("Sphere", yade.Sphere(radius=1)), ("Box", yade.Box(extents=(
         lines = said(lambda: run(1))
         check.equal(len(lines), 1, f"one line for {name}: {lines}")
         kind = type(particle).__name__
-        check.true(f"{kind} (1) and {name} (2): add Ig2_{name}_ConicPP_ScGeom()" in lines[0] and "\n" not in lines[0], f"it says what: {lines[0]}")
+        check.true(f"{kind} (1) and {name} (2): add Ig2_{name}_ConicPP_ScGeom()" in lines[0] and "\n" not in lines[0],
+                   f"it says what: {lines[0]}")
         check.equal(said(lambda: run(5)), [], "and once")
         scene(None, particle, shape, shape)
         check.equal(said(lambda: run(1)), [], f"nothing is said where {name} is served")
 scene(None, cube(), yade.Tetra(v=[(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]))
 lines = said(lambda: O.step())
-check.true(len(lines) == 1 and "ConicPotentialParticle (1) and Tetra (1): there is no functor for them" in lines[0], f"no remedy: {lines}")
+check.true(
+    len(lines) == 1 and "ConicPotentialParticle (1) and Tetra (1): there is no functor for them" in lines[0],
+    f"no remedy: {lines}")
 scene([yade.Ig2_ConicPP_ConicPP_ScGeom()], cube(), plain(cube_planes(), r=0.05, k=0.05, R=0.9))
 check.true("Ig2_PP_PP_ScGeom_Conic" in said(lambda: O.step())[0], "plain shapes beside ours")
 

@@ -11,11 +11,13 @@ check = Checks()
 nan, inf = float("nan"), float("inf")
 
 # Refused at creation, with a sentence that names the culprit.
-for keywords, containing in [
-        (dict(r=-1.0), "r=-1"), (dict(r=nan), "r=NaN"), (dict(r=0.0), "r=0"), (dict(k=-0.1), "k=-0.1"),
-        (dict(k=1.5), "k=1.5"), (dict(k=nan), "k=NaN"), (dict(R=0.0), "R=0"), (dict(R=inf), "R=inf"),
-        (dict(planes=[(0, 0, 0, 1)] + cube_planes()), "plane 0"), (dict(planes=[(1, 0, 0, 1), (1, 0, nan, 1)]), "plane 1"),
-        (dict(planes=[(1, 0, 0, -3)]), "f(0)"), (dict(planes=cube_planes()[:5], k=0.0), "do not enclose")]:
+for keywords, containing in [(dict(r=-1.0), "r=-1"), (dict(r=nan), "r=NaN"), (dict(r=0.0), "r=0"),
+                             (dict(k=-0.1), "k=-0.1"), (dict(k=1.5), "k=1.5"), (dict(k=nan), "k=NaN"),
+                             (dict(R=0.0), "R=0"), (dict(R=inf), "R=inf"),
+                             (dict(planes=[(0, 0, 0, 1)] + cube_planes()), "plane 0"),
+                             (dict(planes=[(1, 0, 0, 1), (1, 0, nan, 1)]), "plane 1"),
+                             (dict(planes=[(1, 0, 0, -3)]), "f(0)"),
+                             (dict(planes=cube_planes()[:5], k=0.0), "do not enclose")]:
     given = dict(planes=cube_planes(), r=0.05, k=0.05, R=0.9)
     given.update(keywords)
     check.raises(ValueError, lambda: yade.ConicPotentialParticle(**given), f"{keywords}", containing)
@@ -31,16 +33,20 @@ def warned(make):
 
 given = dict(r=0.05, k=0.04, R=0.9)
 lines = warned(lambda: yade.ConicPotentialParticle(planes=cube_planes()[:5], **given))
-check.true(len(lines) == 1 and "the 5 planes enclose no volume" in lines[0] and "4.5" in lines[0], f"a cube without a face: {lines}")
+check.true(
+    len(lines) == 1 and "the 5 planes enclose no volume" in lines[0] and "4.5" in lines[0],
+    f"a cube without a face: {lines}")
 check.equal(warned(lambda: yade.ConicPotentialParticle(planes=cube_planes(), **given)), [], "a whole cube")
 check.equal(warned(lambda: yade.ConicPotentialParticle(k=1.0, R=1.0)), [], "a sphere has no planes")
 with warnings.catch_warnings():
     warnings.simplefilter("error")
-    check.raises(UserWarning, lambda: yade.ConicPotentialParticle(planes=cube_planes()[:5], **given), "warnings as errors", "missing")
+    check.raises(UserWarning, lambda: yade.ConicPotentialParticle(planes=cube_planes()[:5], **given),
+                 "warnings as errors", "missing")
 
 # Refused when changed, and the old value stays.
 shape = cube()
-for name, value in [("r", -1.0), ("k", 2.0), ("R", 0.0), ("planes", [(0, 0, 0, 1)]), ("d", [nan] * 6), ("a", [inf] * 6)]:
+for name, value in [("r", -1.0), ("k", 2.0), ("R", 0.0), ("planes", [(0, 0, 0, 1)]), ("d", [nan] * 6),
+                    ("a", [inf] * 6)]:
     before, volume = getattr(shape, name), shape.volume
     check.raises(ValueError, lambda: setattr(shape, name, value), f"{name} = {value}")
     check.equal(getattr(shape, name), before, f"{name} after a refused value")
@@ -49,10 +55,12 @@ check.raises(ValueError, lambda: shape.updateAttrs(dict(r=-1.0, k=0.1)), "update
 check.equal((shape.r, shape.k), (0.05, 0.05), "after refused updateAttrs")
 
 # A group of which one attribute cannot be set: none of them is.
-for last, kind in [(dict(noSuchThing=1), AttributeError), (dict(k="round"), TypeError), (dict(planes=[(1, 0, 0)]), ValueError)]:
+for last, kind in [(dict(noSuchThing=1), AttributeError), (dict(k="round"), TypeError),
+                   (dict(planes=[(1, 0, 0)]), ValueError)]:
     before = shape.dict()
     check.raises(kind, lambda: shape.updateAttrs(dict(a=[1.0], r=0.2, **last)), f"a group with {last}")
-    check.equal((shape.a, shape.r, shape.planes), (before["a"], before["r"], cube_planes()), f"after a group with {last}")
+    check.equal((shape.a, shape.r, shape.planes), (before["a"], before["r"], cube_planes()),
+                f"after a group with {last}")
     check.true(shape.volume > 0, f"and the particle is there after {last}")
 
 # Changes take effect.

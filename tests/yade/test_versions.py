@@ -15,8 +15,9 @@ check = Checks()
 DATA = Path(harness.__file__).resolve().parent / "data"
 # Functors that draw are no part of a scene.
 NAMES = [name for name in potential_particles._glue.class_names if not name.startswith("Gl1_")]
-SETTINGS = dict(formulation="closest", tolerance=1e-11, carryTolerance=1e-8, areaTolerance=1e-5, twoDdir=Vector3(0.5, 0.25, 0.125),
-                unitWidth2D=3.0, flatRegularisation=1e-4, areaStep=7, accuracyTol=1e-6, measureTime=True, label="contacts")
+SETTINGS = dict(formulation="closest", tolerance=1e-11, carryTolerance=1e-8, areaTolerance=1e-5,
+                twoDdir=Vector3(0.5, 0.25, 0.125), unitWidth2D=3.0, flatRegularisation=1e-4, areaStep=7,
+                accuracyTol=1e-6, measureTime=True, label="contacts")
 # Of the body that moves, as the files have them (they are 1e-5 off): the library has computed them better since.
 VOLUME, INERTIA = 0.4038225591237064, Vector3(0.04517679396290749, 0.04517679396290694, 0.07153892301289139)
 # So strong that it changes no motion.
@@ -33,15 +34,21 @@ def scene():
     O.engines = [
         resetter,
         yade.BoundWatch(label="watch"),
-        yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb(label="boxes"), yade.Bo1_PP_Aabb_Conic(label="plainBoxes")],
-                                   verletDist=0.01),
+        yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb(label="boxes"),
+                                    yade.Bo1_PP_Aabb_Conic(label="plainBoxes")], verletDist=0.01),
         yade.ConicInteractionLoop(
-            [functor(), yade.Ig2_PP_PP_ScGeom_Conic(**{**SETTINGS, **PATCH, "label": "plain"})]
-            + [getattr(yade, f"Ig2_{other}_ConicPP_ScGeom")(**{**SETTINGS, **(GAPS if other == "Sphere" else {}), "label": other}) for other in OTHERS],
+            [functor(), yade.Ig2_PP_PP_ScGeom_Conic(**{**SETTINGS, **PATCH, "label": "plain"})] + [
+                getattr(yade, f"Ig2_{other}_ConicPP_ScGeom")(
+                    **{**SETTINGS, **(GAPS if other == "Sphere" else {}), "label": other}) for other in OTHERS
+            ],
             # The later one serves a pair: YADE's own.
-            [yade.Ip2_FrictMat_FrictMat_KnKsPhys_Block(Knormal=1e8, kn_i=2e8, viscousDamping=0.25, tensionBroken=False, label="blocks")]
-            + loop.physDispatcher.functors + [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(label="joints", cohesiveTresholdIteration=5)],
-            loop.lawDispatcher.functors + [yade.Law2_ScGeomConicPP_ConicJointPhys(neverErase=True, label="jointLaw")], label="loop"),
+            [
+                yade.Ip2_FrictMat_FrictMat_KnKsPhys_Block(Knormal=1e8, kn_i=2e8, viscousDamping=0.25,
+                                                          tensionBroken=False, label="blocks")
+            ] + loop.physDispatcher.functors
+            + [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(label="joints", cohesiveTresholdIteration=5)],
+            loop.lawDispatcher.functors + [yade.Law2_ScGeomConicPP_ConicJointPhys(neverErase=True, label="jointLaw")],
+            label="loop"),
         integrator,
     ]
     for tag in ("author", "isoTime", "id", "d.id", "id.d"):
@@ -49,10 +56,12 @@ def scene():
     add(pyramid(size=0.8, R=1.2), Vector3(0, 0, 0), turned((1, 0, 0), math.pi), fixed=True)
     add(pyramid(automaticBox=False), Vector3(0.05, 0.02, 0.60), volume=VOLUME, inertia=INERTIA)
     # A joint, of two plain shapes: the only pair that the functor with a patch serves.
-    material = O.materials.append(yade.ConicJointMat(normalStiffness=1e8, shearStiffness=5e7, restitution=0.5, frictionAngle=0.5, density=2000.0,
-                                                 **STRENGTH))
+    material = O.materials.append(
+        yade.ConicJointMat(normalStiffness=1e8, shearStiffness=5e7, restitution=0.5, frictionAngle=0.5, density=2000.0,
+                           **STRENGTH))
     for place, fixed in (((5, 0, 0), True), ((5, 0.2, 0.999), False)):
-        joined = add(plain(cube_planes(), r=0.05, k=0.05, R=0.9), Vector3(place), fixed=fixed, volume=1.0, inertia=Vector3(1, 1, 1) / 6)
+        joined = add(plain(cube_planes(), r=0.05, k=0.05, R=0.9), Vector3(place), fixed=fixed, volume=1.0,
+                     inertia=Vector3(1, 1, 1) / 6)
         O.bodies[joined].mat = O.materials[material]
         O.bodies[joined].state.vel = Vector3(0 if fixed else 0.1, 0, 0)
     run(20)
@@ -71,15 +80,17 @@ def joint_of():
 
 
 def contents():
-    """What a file must bring back to the last digit. (The overlap is not in it: YADE computes that anew in each step.)"""
+    """What a file must bring back to the last digit. (The overlap is not in it: YADE computes that anew in each step.)
+    """
     contact = O.interactions[0, 1]
-    return {"state": state_numbers(), "shapes": [b.shape.dict() for b in O.bodies],
-            "functors": [one.dict() for one in engine(yade.InteractionLoop).geomDispatcher.functors],
-            "bounds": [one.dict() for one in engine(yade.Collider).boundDispatcher.functors],
-            "engines": [(type(one).__name__, one.label) for one in O.engines],
-            "materials": [material.dict() for material in O.materials],
-            "joint": joint_of(),
-            "contact": (type(contact.geom).__name__, contact.geom.memory, contact.geom.contactPoint, contact.phys.contactArea)}
+    return {
+        "state": state_numbers(), "shapes": [b.shape.dict() for b in O.bodies],
+        "functors": [one.dict() for one in engine(yade.InteractionLoop).geomDispatcher.functors],
+        "bounds": [one.dict() for one in engine(yade.Collider).boundDispatcher.functors], "engines": [
+            (type(one).__name__, one.label) for one in O.engines
+        ], "materials": [material.dict() for material in O.materials], "joint": joint_of(), "contact":
+            (type(contact.geom).__name__, contact.geom.memory, contact.geom.contactPoint, contact.phys.contactArea)
+    }
 
 
 def versions(text):
@@ -93,9 +104,13 @@ def file_of(found):
 
 
 def expected_of(found):
-    """What a scene is that was saved when our classes had these versions: what they did not have then takes its default."""
+    """What a scene is that was saved when our classes had these versions: what they did not have then takes its
+    default.
+    """
     expected = dict(now)
-    expected["functors"] = [one for one in expected["functors"] if unserved.REMEDIES.get(one["label"], NAMES[0]) in found]
+    expected["functors"] = [
+        one for one in expected["functors"] if unserved.REMEDIES.get(one["label"], NAMES[0]) in found
+    ]
     if found["Ig2_ConicPP_ConicPP_ScGeom"] == 0:
         expected["functors"] = [{**one, "carryTolerance": 1e-9} for one in expected["functors"]]
     if found["Ig2_ConicPP_ConicPP_ScGeom"] < 3:
@@ -109,11 +124,15 @@ def expected_of(found):
     elif found["ConicJointMat"] == 0:
         # Neither had a strength, and a joint none for what had broken.
         without = yade.ConicJointMat()
-        expected["materials"] = [{**one, **{name: getattr(without, name) for name in STRENGTH if name in one}} for one in expected["materials"]]
+        expected["materials"] = [{**one, **{name: getattr(without, name)
+                                            for name in STRENGTH if name in one}} for one in expected["materials"]]
         kind, joint = expected["joint"]
         former = yade.ConicJointPhys()
-        expected["joint"] = kind, {**joint, **{name: getattr(former, name) for name in (*STRENGTH, "tangensOfResidualFrictionAngle")
-                                               if name in joint}}
+        expected["joint"] = kind, {
+            **joint,
+            **{name: getattr(former, name)
+               for name in (*STRENGTH, "tangensOfResidualFrictionAngle") if name in joint}
+        }
     if "ConicInteractionLoop" not in found:
         del expected["bounds"], expected["engines"]
     return expected
@@ -121,13 +140,16 @@ def expected_of(found):
 
 scene()
 now, folder = contents(), tempfile.mkdtemp()
-check.true(O.interactions[0, 1].isReal and now["contact"][1].strip("0") and now["contact"][3] > 0, f"in contact: {now['contact']}")
+check.true(O.interactions[0, 1].isReal and now["contact"][1].strip("0") and now["contact"][3] > 0,
+           f"in contact: {now['contact']}")
 path = os.path.join(folder, "scene.xml")
 O.save(path)
 text = open(path).read()
 check.equal(list(versions(text)), NAMES, "every class of ours is in the scene")
-check.true(file_of(versions(text)).exists(), f"a file of the versions that are written now, {versions(text)}, is in {DATA.name}: "
-           "a version that was raised needs one of its own")
+check.true(
+    file_of(versions(text)).exists(),
+    f"a file of the versions that are written now, {versions(text)}, is in {DATA.name}: "
+    "a version that was raised needs one of its own")
 
 for old in sorted(DATA.glob("classes_*.xml")):
     check.equal(file_of(versions(old.read_text())), old, "its name says what is in it")
@@ -141,7 +163,8 @@ for old in sorted(DATA.glob("classes_*.xml")):
     for part in {"shapes", "functors", "bounds", "engines", "materials"} & set(expected):
         check.equal(found[part], expected[part], f"{old.name}: {part}")
     if "joint" in expected:
-        # The patch was that of the library that saved the file, within patchTolerance, 1e-4, and the dashpots were spread over it.
+        # The patch was that of the library that saved the file, within patchTolerance, 1e-4, and the dashpots were
+        # spread over it.
         for name, value in expected["joint"][1].items():
             if not isinstance(value, (bool, int, float, Vector3)):
                 check.equal(found["joint"][1][name], value, f"{old.name}: {name} of the joint")
@@ -152,9 +175,11 @@ for old in sorted(DATA.glob("classes_*.xml")):
             check.close(found["joint"][1][name], value, 2e-3 * size, f"{old.name}: {name} of the joint")
     worst = max(abs(x - y) for x, y in zip(found["state"], expected["state"]))
     allowed = 5e-4 if "joint" in expected else 1e-9
-    check.true(len(found["state"]) == len(expected["state"]) and worst < allowed, f"{old.name}: poses, off by {worst:g}")
+    check.true(
+        len(found["state"]) == len(expected["state"]) and worst < allowed, f"{old.name}: poses, off by {worst:g}")
     name, memory, point, area = found["contact"]
-    check.true(name == "ScGeomConicPP" and len(memory) == len(now["contact"][1]) and memory.strip("0"), f"{old.name}: {found['contact']}")
+    check.true(name == "ScGeomConicPP" and len(memory) == len(now["contact"][1]) and memory.strip("0"),
+               f"{old.name}: {found['contact']}")
     check.close(point, now["contact"][2], 1e-9, f"{old.name}: contact point")
     check.close(area, now["contact"][3], 1e-7, f"{old.name}: contact area")
     potential_particles.prepare()
@@ -168,14 +193,17 @@ check.true(changed >= 2, f"{changed} functors with that back end")
 open(path, "w").write(former)
 O.reset()
 O.load(path)
-check.equal({one.backEnd for one in engine(yade.InteractionLoop).geomDispatcher.functors}, {"cone_program"}, "the former name of a back end")
+check.equal({one.backEnd
+             for one in engine(yade.InteractionLoop).geomDispatcher.functors}, {"cone_program"},
+            "the former name of a back end")
 
 # A class of a newer version: refused with a sentence, and what is whole can be loaded after that.
 for name, version in versions(text).items():
     newer, changed = re.subn(rf'(::{name}" tracking_level="\d" version=)"\d+"', rf'\g<1>"{version + 1}"', text)
     check.equal(changed, 1, f"a newer {name} was made")
     open(path, "w").write(newer)
-    check.raises(RuntimeError, lambda: O.load(path), f"newer {name}", f"{name} of version {version + 1}, and this potential_particles reads")
+    check.raises(RuntimeError, lambda: O.load(path), f"newer {name}",
+                 f"{name} of version {version + 1}, and this potential_particles reads")
 open(path, "w").write(text)
 O.load(path)
 check.equal(contents(), now, "a whole file after that")

@@ -27,13 +27,15 @@ def both_orders(boundary, particle, overlap, normal, text, point=None, radius=No
             continue
         contact = found[0]
         # The functor is of (boundary, particle), so YADE has the boundary as body 1 whoever was there first.
-        check.true(not isinstance(O.bodies[contact.id1].shape, yade.PotentialParticle), f"{text}: the boundary is body 1")
+        check.true(not isinstance(O.bodies[contact.id1].shape, yade.PotentialParticle),
+                   f"{text}: the boundary is body 1")
         check.close(contact.geom.penetrationDepth, overlap, tolerance, f"{text}: overlap")
         check.close(contact.geom.normal, normal, tolerance, f"{text}: normal")
         if point is not None:
             check.close(contact.geom.contactPoint, point, tolerance, f"{text}: point")
         if radius is not None:
-            # Two bodies of one material and radius: kn = E R, R the bounding radius, which rounding leaves a little larger.
+            # Two bodies of one material and radius: kn = E R, R the bounding radius, which rounding leaves a little
+            # larger.
             bounding = O.bodies[contact.id2].shape.boundingRadius
             check.true(0 <= bounding - radius <= 2e-5 * radius, f"{text}: bounding radius {bounding}")
             force = YOUNG * bounding * overlap
@@ -62,13 +64,18 @@ for axis in range(3):
             at = centre - axis_vector(axis, side * 0.47)
             off = at + Vector3(5, 6, 7) - axis_vector(axis, (5, 6, 7)[axis])  # anywhere in the plane
             for sense in 0, side:
-                both_orders(wall(axis, off, sense), rock(lambda: ball(0.5), centre, TURN), 0.03, out, f"ball on wall {axis}, {side}",
-                            at + out * (-0.015), 0.5, 1e-10 if far != Vector3.Zero else 1e-14)
+                both_orders(wall(axis, off, sense), rock(lambda: ball(0.5), centre,
+                                                         TURN), 0.03, out, f"ball on wall {axis}, {side}", at + out *
+                            (-0.015), 0.5, 1e-10 if far != Vector3.Zero else 1e-14)
     # Behind a wall that pushes to one side only, the overlap is as deep as the particle reaches.
-    both_orders(wall(axis, Vector3.Zero, 1), rock(lambda: ball(0.5), axis_vector(axis, -0.2)), 0.7, axis_vector(axis, 1), "behind the wall")
-check.equal(contact_of(wall(2, Vector3.Zero, 1), rock(lambda: ball(0.5), Vector3(0, 0, -0.51))), [], "wholly behind the wall")
-check.equal(contact_of(wall(2, Vector3.Zero), rock(lambda: ball(0.5), Vector3(0, 0, 0.500001))), [], "just off the wall")
-check.equal(contact_of(wall(2, Vector3.Zero), rock(lambda: ball(0.5, isBoundary=True), Vector3(0, 0, 0.4))), [], "two boundaries")
+    both_orders(wall(axis, Vector3.Zero, 1), rock(lambda: ball(0.5), axis_vector(axis, -0.2)), 0.7,
+                axis_vector(axis, 1), "behind the wall")
+check.equal(contact_of(wall(2, Vector3.Zero, 1), rock(lambda: ball(0.5), Vector3(0, 0, -0.51))), [],
+            "wholly behind the wall")
+check.equal(contact_of(wall(2, Vector3.Zero), rock(lambda: ball(0.5), Vector3(0, 0, 0.500001))), [],
+            "just off the wall")
+check.equal(contact_of(wall(2, Vector3.Zero), rock(lambda: ball(0.5, isBoundary=True), Vector3(0, 0, 0.4))), [],
+            "two boundaries")
 
 # A cube whose corner points down reaches (half - r) sqrt 3 + r; one with an edge or a face down as much less.
 half, r = 0.5, 0.01
@@ -77,9 +84,10 @@ on_corner.setFromTwoVectors(Vector3(1, 1, 1).normalized(), Vector3(0, 0, -1))
 on_edge = Quaternion.Identity
 on_edge.setFromTwoVectors(Vector3(0, 1, 1).normalized(), Vector3(0, 0, -1))
 for k in 0.0, 1e-12:
-    for turn, reach in (Quaternion.Identity, half), (on_edge, (half - r) * math.sqrt(2) + r), (on_corner, (half - r) * math.sqrt(3) + r):
-        both_orders(wall(2, Vector3.Zero), rock(lambda: sharp_cube(half, r, k), Vector3(0.2, 0.1, reach - 1e-3), turn), 1e-3,
-                    Vector3(0, 0, 1), f"a cube that reaches {reach:.3f}", tolerance=1e-8)
+    for turn, reach in (Quaternion.Identity,
+                        half), (on_edge, (half - r) * math.sqrt(2) + r), (on_corner, (half - r) * math.sqrt(3) + r):
+        both_orders(wall(2, Vector3.Zero), rock(lambda: sharp_cube(half, r, k), Vector3(0.2, 0.1, reach - 1e-3), turn),
+                    1e-3, Vector3(0, 0, 1), f"a cube that reaches {reach:.3f}", tolerance=1e-8)
 
 # A wall moves with its body.
 mixed_scene(dt=1e-3)
@@ -98,8 +106,11 @@ check.close(found.phys.contactArea, math.pi * (0.25 - 0.45**2), 1e-9, "section o
 check.close(found.phys.ptOnP1, Vector3(1, 2, 0), 1e-12, "point on the wall")
 check.close(found.phys.ptOnP2, Vector3(1, 2, -0.1), 1e-12, "point on the particle")
 check.close(O.forces.f(1)[2], 1e7 * found.phys.contactArea * 0.1, 1e-3, "force = stiffness x area x overlap")
-found, = contact_of(wall(2, Vector3.Zero), rock(lambda: sharp_cube(half, r), Vector3(1, 2, 0.49), turned((0, 0, 1), 0.4)), area_physics(), 2)
-check.close(found.phys.contactArea, 4 * (half - r)**2 + 8 * (half - r) * math.sqrt(r * r - 25e-6) + math.pi * (r * r - 25e-6), 1e-3, "section of a cube")
+found, = contact_of(wall(2, Vector3.Zero), rock(lambda: sharp_cube(half, r), Vector3(1, 2, 0.49), turned((0, 0, 1),
+                                                                                                         0.4)),
+                    area_physics(), 2)
+check.close(found.phys.contactArea, 4 * (half - r)**2 + 8 * (half - r) * math.sqrt(r * r - 25e-6) + math.pi *
+            (r * r - 25e-6), 1e-3, "section of a cube")
 
 # --- one facet ------------------------------------------------------------------------------
 corners = [Vector3(0, 0, 0), Vector3(2, 0, 0), Vector3(0, 2, 0)]
@@ -107,9 +118,12 @@ for turn in Quaternion.Identity, TURN:
     for shift in Vector3.Zero, Vector3(-1e3, 2e3, 1e3):
         facet = lambda: facets([[shift + turn * v for v in corners]])
         tolerance = 1e-12 if shift == Vector3.Zero else 2e-12 * 1e3
-        for nearest, out, text in [(Vector3(0.5, 0.5, 0), (0, 0, 1), "front"), (Vector3(0.5, 0.5, 0), (0, 0, -1), "back"),
-                                   (Vector3(0.7, 0, 0), (0, -1, 0), "edge"), (Vector3(0.7, 0, 0), (0, -1, 2), "edge, obliquely"),
-                                   (Vector3(1, 1, 0), (1, 1, 0.5), "long edge"), (Vector3(2, 0, 0), (1, -0.2, 0.3), "vertex"),
+        for nearest, out, text in [(Vector3(0.5, 0.5, 0), (0, 0, 1), "front"), (Vector3(0.5, 0.5,
+                                                                                        0), (0, 0, -1), "back"),
+                                   (Vector3(0.7, 0, 0), (0, -1, 0), "edge"),
+                                   (Vector3(0.7, 0, 0), (0, -1, 2), "edge, obliquely"),
+                                   (Vector3(1, 1, 0), (1, 1, 0.5), "long edge"),
+                                   (Vector3(2, 0, 0), (1, -0.2, 0.3), "vertex"),
                                    (Vector3(0, 0, 0), (-1, -1, -1), "vertex of the right angle")]:
             out = turn * Vector3(out).normalized()
             centre = shift + turn * nearest + out * 0.27
@@ -119,8 +133,9 @@ for turn in Quaternion.Identity, TURN:
         check.equal(contact_of(facet, rock(lambda: ball(0.3), gone)), [], "just off an edge")
 
 # The edge of a plate in the middle of a face of a cube, less deep than the cube is rounded.
-both_orders(lambda: facets([[(0, -5, 0), (0, 5, 0), (9, 0, 0)]]), rock(lambda: sharp_cube(half, r), Vector3(-0.495, 0, 0.1)), 0.005,
-            Vector3(-1, 0, 0), "an edge in a face", tolerance=1e-9)
+both_orders(lambda: facets([[(0, -5, 0), (0, 5, 0), (9, 0, 0)]]),
+            rock(lambda: sharp_cube(half, r), Vector3(-0.495, 0, 0.1)), 0.005, Vector3(-1, 0, 0), "an edge in a face",
+            tolerance=1e-9)
 
 # Walls that turn in the place where they stand: with BoundWatch the collider sees them.
 def first_contact(paddle, verlet, watch):

@@ -22,7 +22,9 @@ SECONDS = 300
 
 
 def needs_opengl(file):
-    """Whether a library must have OpenGL to be loaded. (The process has it in any case: YADE's own libraries bring it, by way of VTK.)"""
+    """Whether a library must have OpenGL to be loaded. (The process has it in any case: YADE's own libraries bring it,
+    by way of VTK.)
+    """
     known = subprocess.run(["objdump", "-p", "-T", file], capture_output=True, text=True, check=True).stdout
     return bool(re.search(r"NEEDED +lib(GL|OpenGL|Qt|QGL)|\*UND\*.* gl[A-Z]\w*$", known, re.MULTILINE))
 
@@ -31,8 +33,9 @@ def needs_opengl(file):
 def display():
     """The name of a display of its own. The server takes a number that is free: others may start at the same time."""
     told, tells = os.pipe()
-    server = subprocess.Popen(["Xvfb", "-displayfd", str(tells), "-screen", "0", "900x700x24", "-nolisten", "tcp"], pass_fds=[tells],
-                              stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    server = subprocess.Popen(
+        ["Xvfb", "-displayfd", str(tells), "-screen", "0", "900x700x24", "-nolisten", "tcp"], pass_fds=[tells],
+        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     os.close(tells)
     try:
         with open(told) as number:
@@ -47,8 +50,9 @@ def start(order, shown_on):
     switches = ["-n"] if order == "first" else []
     # OpenGL of the processor, whatever else there is.
     environment = dict(os.environ, LIBGL_ALWAYS_SOFTWARE="1", QT_QPA_PLATFORM="xcb", DISPLAY=shown_on)
-    return subprocess.Popen(["yade", "-x", *switches, f"-j{O.numThreads}", SCENE, order], env=environment, text=True, start_new_session=True,
-                            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    return subprocess.Popen(["yade", "-x", *switches, f"-j{O.numThreads}", SCENE, order], env=environment, text=True,
+                            start_new_session=True, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                            stderr=subprocess.STDOUT)
 
 
 check.true(not needs_opengl(potential_particles._glue.__file__), "the plugin loads where there is no OpenGL")
@@ -78,11 +82,15 @@ def unknown_renderer(_):
 
 
 dispatcher.functors = [yade.Gl1_PotentialParticle(), yade.Gl1_Sphere()]
-check.equal((serve(dispatcher_of), renderer.shape, renderer.bound), ([], True, False), "a window is served without a word")
-for shape, name in ((harness.cube(), "PotentialParticle_Conic"), (yade.PotentialParticle(), "PotentialParticle_Conic"), (yade.Sphere(), "Sphere")):
+check.equal((serve(dispatcher_of), renderer.shape, renderer.bound), ([], True, False),
+            "a window is served without a word")
+for shape, name in ((harness.cube(), "PotentialParticle_Conic"), (yade.PotentialParticle(), "PotentialParticle_Conic"),
+                    (yade.Sphere(), "Sphere")):
     check.equal(type(dispatcher.dispFunctor(shape)).__name__, "Gl1_" + name, f"what draws a {type(shape).__name__}")
 said = serve(unknown_renderer)
-check.true(len(said) == 1 and "laid out otherwise" in said[0] and "potential_particles.plot" in said[0], f"an unknown renderer: {said}")
+check.true(
+    len(said) == 1 and "laid out otherwise" in said[0] and "potential_particles.plot" in said[0],
+    f"an unknown renderer: {said}")
 check.equal((renderer.shape, renderer.bound), (False, True), "which then shows boxes")
 
 if shutil.which("Xvfb"):
@@ -97,7 +105,8 @@ if shutil.which("Xvfb"):
         summary = re.search(r"^(\d+) passed, (\d+) failed$", text, re.MULTILINE)
         ended_well = summary and process.returncode == 0 and summary[2] == "0" and summary[1] != "0"
         check.true(ended_well, f"plugin imported {order}: exit status {process.returncode}\n{text}")
-        check.true("not drawn in the window: sphericity k=2.0" in text, f"{order}: the shape that is not drawn is named")
+        check.true("not drawn in the window: sphericity k=2.0" in text,
+                   f"{order}: the shape that is not drawn is named")
 else:
     print("skipped: no window without Xvfb (Debian's package xvfb, which scripts/setup.sh installs)")
 check.finish()

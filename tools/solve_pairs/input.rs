@@ -50,8 +50,8 @@ pub fn pair(text: &[u8]) -> Result<Input, String> {
     })?;
     let (a, b) = (line.shape_a.particle("A")?, line.shape_b.particle("B")?);
     let (pose_a, pose_b) = (line.a.pose("a")?, line.b.pose("b")?);
-    // About the centre of B no digit of a surface point is lost to a position of 10⁷, and with what rounding took from the
-    // difference of the positions no digit of that either.
+    // About the centre of B no digit of a surface point is lost to a position of 10⁷, and with what rounding took from
+    // the difference of the positions no digit of that either.
     let parts = pose_a.position().zip_map(pose_b.position(), difference);
     let at = |position: Vector3<f64>, pose: &Pose| {
         Pose::new(position.into(), pose.orientation()).map_err(|error| error.to_string())

@@ -41,7 +41,8 @@ pub struct Arguments {
     /// The pairs depend on this number and their index only; without it a seed is drawn, and printed first.
     #[arg(long)]
     pub seed: Option<u64>,
-    /// Index of the first pose; by default 0, and with --settle-every 10^13, from where on 512 poses share their shapes.
+    /// Index of the first pose; by default 0, and with --settle-every 10^13, from where on 512 poses share their
+    /// shapes.
     #[arg(long)]
     pub first: Option<u64>,
     /// Settle one pose in this many in 32 digits, and those that look doubtful; the others are judged by definition.
@@ -56,14 +57,15 @@ pub struct Arguments {
     /// Leave the continuity sweeps out.
     #[arg(long)]
     pub no_sweeps: bool,
-    /// Particles, of space and of the plane, whose volume, centroid and inertia are held against closed forms or a finer tolerance; by default one for
-    /// each thousand poses.
+    /// Particles, of space and of the plane, whose volume, centroid and inertia are held against closed forms or a
+    /// finer tolerance; by default one for each thousand poses.
     #[arg(long)]
     pub mass: Option<u64>,
     /// Pairs whose patches are held against brute force; by default one for each thousand poses.
     #[arg(long)]
     pub patches: Option<u64>,
-    /// Hulls of points and bodies of half-spaces that are held against exact arithmetic; by default one for each ten poses.
+    /// Hulls of points and bodies of half-spaces that are held against exact arithmetic; by default one for each ten
+    /// poses.
     #[arg(long)]
     pub hulls: Option<u64>,
     /// Only this family of pairs.

@@ -1,5 +1,5 @@
-//! Random particles beside random planes and triangles, by seed and index: parallel to faces, at edges and corners, from just
-//! touching to through the centre. No solver is asked where to put them.
+//! Random particles beside random planes and triangles, by seed and index: parallel to faces, at edges and corners,
+//! from just touching to through the centre. No solver is asked where to put them.
 
 use crate::cases::{Place, stream};
 use crate::placed_boundary::Boundary;

@@ -36,7 +36,8 @@ fn parts(value: f64) -> (i64, i32) {
 }
 
 impl ExactHull {
-    /// Adds one point after the other: the triangles below it are removed, and those from it to the edges around them are added.
+    /// Adds one point after the other: the triangles below it are removed, and those from it to the edges around them
+    /// are added.
     pub fn of(points: &[[f64; 3]]) -> Self {
         let least = points.iter().flatten().filter(|c| **c != 0.0).map(|c| parts(*c).1).min().unwrap_or(0);
         let whole =

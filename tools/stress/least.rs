@@ -6,9 +6,10 @@
 //! F(y) = w Σ ⟨e_i + a_i·y⟩² + m (h² + |y|²)
 //! ```
 //!
-//! with a_i the part of a normal in the plane and e_i its excess at the foot. Newton's method with an exact line search finds the
-//! minimum on the plane; on a triangle it is that or the least of the three edges. Whatever is reached is a proof: with a slope g
-//! into the boundary at a feasible point, F is nowhere on it below F − |g|²/4m, nor below F − |g|·D within a distance D.
+//! with a_i the part of a normal in the plane and e_i its excess at the foot. Newton's method with an exact line search
+//! finds the minimum on the plane; on a triangle it is that or the least of the three edges. Whatever is reached is a
+//! proof: with a slope g into the boundary at a feasible point, F is nowhere on it below F − |g|²/4m, nor below F −
+//! |g|·D within a distance D.
 
 use crate::placed_boundary::{Boundary, Edge, Part, Plane, Wide2, along, cross, dot, edges, length};
 use crate::wide::{Wide, Wide3};
@@ -100,8 +101,8 @@ impl Reduced {
         Local { value, slope, active }
     }
 
-    /// Newton's step in the plane: −K⁻¹q with K = wΣaaᵀ + m, by its adjugate. Determinant and adjugate are made from the cross products of
-    /// pairs of normals, so that nearly parallel ones lose no digits.
+    /// Newton's step in the plane: −K⁻¹q with K = wΣaaᵀ + m, by its adjugate. Determinant and adjugate are made from
+    /// the cross products of pairs of normals, so that nearly parallel ones lose no digits.
     fn newton(&self, y: &Wide2, at: &Local) -> Wide2 {
         let rows = || at.active.iter().map(|(i, excess)| (&self.rows[*i].0, *excess));
         let (mut both, mut each) = (Wide::ZERO, Wide::ZERO);
@@ -201,8 +202,9 @@ impl Reduced {
         y
     }
 
-    /// How far from the minimum on the plane (no direction) or along a unit direction a point may be, and it is no farther than
-    /// that if no plane is switched within that way: to the next Newton point, else by the least curvature.
+    /// How far from the minimum on the plane (no direction) or along a unit direction a point may be, and it is no
+    /// farther than that if no plane is switched within that way: to the next Newton point, else by the least
+    /// curvature.
     fn doubt(&self, y: &Wide2, direction: Option<&Wide2>, slope: f64) -> f64 {
         let at = self.at(y);
         let step = match direction {

@@ -3,7 +3,8 @@
 //!
 //!     cargo run --release --example stress -- --poses 1000000
 //!
-//! Each run draws a seed of its own and prints it first; `--seed` repeats a run. Ctrl-C ends a run early and keeps its results. docs/reliability.md says what is checked and what was found.
+//! Each run draws a seed of its own and prints it first; `--seed` repeats a run. Ctrl-C ends a run early and keeps its
+//! results. docs/reliability.md says what is checked and what was found.
 
 mod arguments;
 mod boundaries;

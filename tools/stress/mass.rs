@@ -1,5 +1,5 @@
-//! Random particles whose volume, centroid and inertia are held against closed forms, or against their own at a far finer
-//! tolerance: an error above the estimate of it is a failure, whatever its size.
+//! Random particles whose volume, centroid and inertia are held against closed forms, or against their own at a far
+//! finer tolerance: an error above the estimate of it is a failure, whatever its size.
 
 use crate::cases::stream;
 use crate::random::Random;
@@ -13,7 +13,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::Instant;
 
-/// Tolerances that are asked for, and the one of the reference; that of particles of more planes than [`FEW`] is coarser.
+/// Tolerances that are asked for, and the one of the reference; that of particles of more planes than [`FEW`] is
+/// coarser.
 const ASKED: [f64; 3] = [1e-3, 1e-4, 1e-6];
 const FINE: f64 = 1e-8;
 const FINE_OF_MANY: f64 = 1e-7;
@@ -287,8 +288,8 @@ fn rounded_box(seed: u64, index: u64, random: &mut Random) -> Tally {
     compared((seed, index, "rounded box", planes.len()), Some(reference), |tolerance| of_space(&made, tolerance))
 }
 
-/// Volume and ∫x_i² of the Minkowski sum of a box with half edges a and a ball: the sum over slabs of the box times parts of
-/// a ball (Steiner).
+/// Volume and ∫x_i² of the Minkowski sum of a box with half edges a and a ball: the sum over slabs of the box times
+/// parts of a ball (Steiner).
 fn steiner<const D: usize>(a: SVector<f64, D>, r: f64) -> (f64, SVector<f64, D>) {
     let (mut volume, mut second) = (0.0, SVector::zeros());
     for outside in 0..1 << D {

@@ -66,8 +66,8 @@ impl Plane {
         Self::with_axis(boundary, position, orientation, None)
     }
 
-    /// With its first axis along edge i of a triangle, and its height that of the edge: however the sides of a narrow triangle turn the plane,
-    /// the edge stays where it is.
+    /// With its first axis along edge i of a triangle, and its height that of the edge: however the sides of a narrow
+    /// triangle turn the plane, the edge stays where it is.
     pub fn along_edge(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], i: usize) -> Self {
         Self::with_axis(boundary, position, orientation, Some(i))
     }

@@ -65,7 +65,8 @@ def main():
         worst = family["gap"]["worst"]
         if worst:
             errors.plot([worst], [place], "x", color="#e07b00", ms=5)
-    for axes, label in ((errors, "error of s over max(s, 1)"), (times, "evaluations of the pair itself (midway, cold, to the end)")):
+    for axes, label in ((errors, "error of s over max(s, 1)"),
+                        (times, "evaluations of the pair itself (midway, cold, to the end)")):
         axes.set_xscale("log")
         axes.set_xlabel(label)
         axes.grid(axis="x", alpha=0.3)

@@ -409,7 +409,8 @@ impl Problem<'_> {
         let gradient = a.gradient.plus(&b.gradient.times(lambda)).norm().f64();
         let plain = x.f64();
         let midway = self.wanted == Wanted::Midway;
-        // At a feasible point: both S are at most this, or 1, at the optimum. x itself may be infeasible, and S of the free body smaller there.
+        // At a feasible point: both S are at most this, or 1, at the optimum. x itself may be infeasible, and S of the
+        // free body smaller there.
         let most = match self.wanted {
             Wanted::Midway => a.value.max(b.value),
             Wanted::OnB => self.a.at(&self.b.inward(&x, &b)).value,

@@ -39,7 +39,8 @@ fn part(feature: Feature, triangle: &[usize; 3]) -> Vec<usize> {
     part
 }
 
-/// A random triangle beside a particle, made part of a mesh: another on one of its edges, or a fan about one of its vertices.
+/// A random triangle beside a particle, made part of a mesh: another on one of its edges, or a fan about one of its
+/// vertices.
 fn mesh(particle: &Particle, at: &Place, random: &mut Random) -> (Mesh, String) {
     loop {
         let (boundary, how) = beside(particle, at, random);

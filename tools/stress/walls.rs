@@ -156,7 +156,8 @@ impl Truth {
 }
 
 impl Scene<'_> {
-    /// What is remembered: of half of the cases nothing, of the others what the particle leaves a little aside of there, or any numbers.
+    /// What is remembered: of half of the cases nothing, of the others what the particle leaves a little aside of
+    /// there, or any numbers.
     fn memory(&self) -> Option<Raw> {
         let Case { particle, at, boundary, memory, .. } = self.case;
         let mut random = stream(memory.seed, 16, memory.index);
@@ -418,7 +419,8 @@ impl Scene<'_> {
         let Some(way) = turned.try_normalize(0.0) else { return };
         let to = particle.surface_distance(&Vector3::zeros(), &way).unwrap_or(0.0);
         let (surface, length) = (to * way, x.norm());
-        // From there to the plane along its normal as well, where that meets the boundary; the way to x is one in any case.
+        // From there to the plane along its normal as well, where that meets the boundary; the way to x is one in any
+        // case.
         let most = (turned - surface).norm().min((length - to).abs());
         let rounding = 64.0
             * EPS

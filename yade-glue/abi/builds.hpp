@@ -15,8 +15,8 @@
 // FrictPhys has a number more, behind its tangent.
 #define PP_YADE_FRICT_PHYS_EXTRA (PP_YADE_VERSION >= 202601)
 
-// Whether Law2_ScGeom_FrictPhys_CundallStrack and Law2_SCG_KnKsPhys_KnKsLaw compute what a contact loop of ours computes in
-// their place. Those of 2026 were not compared.
+// Whether Law2_ScGeom_FrictPhys_CundallStrack and Law2_SCG_KnKsPhys_KnKsLaw compute what a contact loop of ours
+// computes in their place. Those of 2026 were not compared.
 #define PP_YADE_LAWS_ARE_KNOWN (PP_YADE_VERSION < 202601)
 
 namespace yade {

@@ -209,7 +209,8 @@ class Comparison:
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    arguments.add_argument("--build", default="this YADE", help="what the declarations were compiled for, as messages name it")
+    arguments.add_argument("--build", default="this YADE",
+                           help="what the declarations were compiled for, as messages name it")
     arguments.add_argument("--libraries", type=Path, required=True, help="folder of YADE's libraries")
     arguments.add_argument("--probe", type=Path, required=True, help="probe.cpp, compiled")
     arguments.add_argument("--plugin", type=Path, help="the plugin")
@@ -233,11 +234,14 @@ def main():
     for difference in comparison.differences:
         print(f"check_abi: {difference}", file=sys.stderr)
     if comparison.differences:
-        print(f"check_abi: {len(comparison.differences)} differences between abi/, compiled for {options.build}, and the libraries in "
-              f"{options.libraries}: the plugin does not fit this YADE (yade-glue/tested_builds.txt has those that it fits)",
-              file=sys.stderr)
+        print(
+            f"check_abi: {len(comparison.differences)} differences between abi/, compiled for {options.build}, and the libraries in "
+            f"{options.libraries}: the plugin does not fit this YADE (yade-glue/tested_builds.txt has those that it fits)",
+            file=sys.stderr)
         return 1
-    print(f"check_abi: {options.build}: {len(classes)} classes, {comparison.slots} virtual slots and {symbols} symbols agree")
+    print(
+        f"check_abi: {options.build}: {len(classes)} classes, {comparison.slots} virtual slots and {symbols} symbols agree"
+    )
     return 0
 
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The dispatchers of an InteractionLoop: which functor serves a pair of classes. Never made here, and no virtual function of
-// theirs is called, so that none of their own is declared.
+// The dispatchers of an InteractionLoop: which functor serves a pair of classes. Never made here, and no virtual
+// function of theirs is called, so that none of their own is declared.
 #pragma once
 
 #include "engine.hpp"

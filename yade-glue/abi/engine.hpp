@@ -59,7 +59,8 @@ public:
 
 private:
     bool alreadyWarnedNoCollider;
-    std::vector<std::vector<std::pair<int, int>>> eraseAfterLoopIds; // lists, one for each thread; of one size with this
+    std::vector<std::vector<std::pair<int, int>>>
+        eraseAfterLoopIds; // lists, one for each thread; of one size with this
 
 public:
     boost::shared_ptr<IGeomDispatcher> geomDispatcher;

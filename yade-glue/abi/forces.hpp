@@ -23,8 +23,8 @@ public:
     ~EnergyTracker() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    // Adds to the energy of that name; `number`, -1 before the first call, becomes the place where it is kept. `ofStep`: it
-    // begins from 0 in each step.
+    // Adds to the energy of that name; `number`, -1 before the first call, becomes the place where it is kept.
+    // `ofStep`: it begins from 0 in each step.
     void add(const Real& value, const std::string& name, int& number, bool ofStep);
 };
 

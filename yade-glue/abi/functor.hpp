@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Functor down to IGeomFunctor, IPhysFunctor and LawFunctor, which dispatchers call for a pair, and BoundFunctor, for one shape.
+// Functor down to IGeomFunctor, IPhysFunctor and LawFunctor, which dispatchers call for a pair, and BoundFunctor, for
+// one shape.
 #pragma once
 
 #include "bound.hpp"

@@ -72,7 +72,8 @@ public:
     ScGeom6D() = delete;
     ~ScGeom6D() override;
 
-    // Bending and twist from the orientations at the first contact (isNew) or bond to the present ones; after precompute().
+    // Bending and twist from the orientations at the first contact (isNew) or bond to the present ones; after
+    // precompute().
     void precomputeRotations(const State& state1, const State& state2, bool isNew, bool creep);
 };
 

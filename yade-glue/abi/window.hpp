@@ -10,7 +10,8 @@ namespace yade {
 
 struct GLViewInfo;
 
-using GlShapeArguments = boost::mpl::vector<const boost::shared_ptr<Shape>&, const boost::shared_ptr<State>&, bool, const GLViewInfo&>;
+using GlShapeArguments =
+    boost::mpl::vector<const boost::shared_ptr<Shape>&, const boost::shared_ptr<State>&, bool, const GLViewInfo&>;
 
 class GlShapeFunctor : public Functor1D<Shape, void, GlShapeArguments> {
 public:
@@ -22,8 +23,8 @@ public:
 };
 PP_ABI_SIZE(GlShapeFunctor, 88);
 
-// Only found as a part of the renderer (src/drawing/window.cpp), and used through Python. Of the classes between Engine and it
-// nothing is needed.
+// Only found as a part of the renderer (src/drawing/window.cpp), and used through Python. Of the classes between Engine
+// and it nothing is needed.
 class GlShapeDispatcher : public Engine {
 public:
     GlShapeDispatcher() = delete;
@@ -34,8 +35,8 @@ public:
 // The libraries export no virtual table of it to compare with.
 PP_ABI_ASSERT(sizeof(GlShapeDispatcher) == 176, "size of GlShapeDispatcher");
 
-// Its beginning. No contact depends on the window, so that check_abi.py need not compare the whole: whether the dispatcher
-// lies where it is declared is found out before it is touched.
+// Its beginning. No contact depends on the window, so that check_abi.py need not compare the whole: whether the
+// dispatcher lies where it is declared is found out before it is touched.
 class OpenGLRenderer : public Serializable {
 public:
     OpenGLRenderer() = delete;

@@ -13,7 +13,8 @@ namespace {
 
 btTransform transform(const Placement& at) {
     const auto& q = at.orientation;
-    return btTransform(btQuaternion(q[1], q[2], q[3], q[0]).normalized(), btVector3(at.position[0], at.position[1], at.position[2]));
+    return btTransform(btQuaternion(q[1], q[2], q[3], q[0]).normalized(),
+                       btVector3(at.position[0], at.position[1], at.position[2]));
 }
 
 std::array<double, 3> numbers(const btVector3& x) { return {x.x(), x.y(), x.z()}; }

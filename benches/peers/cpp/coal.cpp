@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: MIT OR Apache-2.0
-// Coal (formerly HPP-FCL): GJK, and EPA where the cores meet. Ways: contact, contact-nesterov, distance, distance-nesterov;
-// contact@1e-3 sets both tolerances. Rounded bodies by Coal's swept sphere.
+// SPDX-License-Identifier: MIT OR Apache-2.0 Coal (formerly HPP-FCL): GJK, and EPA where the cores meet. Ways: contact,
+// contact-nesterov, distance, distance-nesterov; contact@1e-3 sets both tolerances. Rounded bodies by Coal's swept
+// sphere.
 #include "server.hpp"
 
 #include <coal/collision.h>
@@ -23,7 +23,8 @@ std::unique_ptr<coal::Convex<Triangle>> hull(const Group& group) {
     for (const auto& x : group.corners) corners->emplace_back(x[0], x[1], x[2]);
     auto faces = std::make_shared<std::vector<Triangle>>();
     for (const auto& t : group.triangles) faces->emplace_back(t[0], t[1], t[2]);
-    auto shape = std::make_unique<coal::Convex<Triangle>>(corners, unsigned(corners->size()), faces, unsigned(faces->size()));
+    auto shape = std::make_unique<coal::Convex<Triangle>>(corners, unsigned(corners->size()), faces,
+                                                          unsigned(faces->size()));
     shape->computeLocalAABB();
     if (group.swept > 0) shape->setSweptSphereRadius(group.swept);
     return shape;
@@ -58,7 +59,10 @@ protected:
 
 class Contacts : public Coal<coal::CollisionRequest> {
 public:
-    Contacts(const Group& group, bool nesterov, double tolerance) : Coal(group, nesterov, tolerance), collide(shape.get(), shape.get()) {
+    Contacts(const Group& group, bool nesterov, double tolerance)
+        : Coal(group, nesterov, tolerance)
+        , collide(shape.get(), shape.get())
+    {
         // Nothing is asked about pairs that are apart, so that GJK may stop at the first separating plane.
         cold.distance_upper_bound = 0;
         for (auto& request : warm_requests) request.distance_upper_bound = 0;
@@ -76,7 +80,8 @@ public:
                 continue;
             }
             const auto& contact = result.getContact(0);
-            answer.kind = std::isfinite(contact.penetration_depth) && contact.normal.allFinite() ? Kind::found : Kind::failed;
+            answer.kind = std::isfinite(contact.penetration_depth) && contact.normal.allFinite() ? Kind::found
+                                                                                                 : Kind::failed;
             answer.overlap = -contact.penetration_depth; // negative inside
             answer.point = numbers(contact.pos);
             answer.normal = numbers(contact.normal);
@@ -90,7 +95,11 @@ private:
 
 class Distances : public Coal<coal::DistanceRequest> {
 public:
-    Distances(const Group& group, bool nesterov, double tolerance) : Coal(group, nesterov, tolerance), measure(shape.get(), shape.get()) {}
+    Distances(const Group& group, bool nesterov, double tolerance)
+        : Coal(group, nesterov, tolerance)
+        , measure(shape.get(), shape.get())
+    {
+    }
 
     void pass(std::size_t pose, bool warm) override {
         for (std::size_t i = 0; i < a.size(); ++i) {

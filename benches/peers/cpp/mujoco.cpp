@@ -1,7 +1,7 @@
-// SPDX-License-Identifier: MIT OR Apache-2.0
-// MuJoCo: GJK and EPA of two convex meshes, as mj_geomDistance gives them: a signed distance and the points at its ends. It has no meshes with
-// a rounded surface, and no memory from call to call. The time step of a simulation, which limits itself to bodies that are near and makes several
-// points of faces on each other, is another work, and is not measured.
+// SPDX-License-Identifier: MIT OR Apache-2.0 MuJoCo: GJK and EPA of two convex meshes, as mj_geomDistance gives them: a
+// signed distance and the points at its ends. It has no meshes with a rounded surface, and no memory from call to call.
+// The time step of a simulation, which limits itself to bodies that are near and makes several points of faces on each
+// other, is another work, and is not measured.
 #include "server.hpp"
 
 #include <mujoco/mujoco.h>
@@ -21,7 +21,8 @@ struct Model {
         text.precision(17);
         text << "<mujoco><asset><mesh name='body' vertex='";
         for (const auto& x : group.corners) text << x[0] << ' ' << x[1] << ' ' << x[2] << ' ';
-        text << "'/></asset><worldbody><body><geom type='mesh' mesh='body'/></body><body><geom type='mesh' mesh='body'/></body></worldbody></mujoco>";
+        text << "'/></asset><worldbody><body><geom type='mesh' mesh='body'/></body><body><geom type='mesh' "
+                "mesh='body'/></body></worldbody></mujoco>";
         char error[1000] = "";
         mjSpec* spec = mj_parseXMLString(text.str().c_str(), nullptr, error, sizeof error);
         if (!spec) throw std::runtime_error(error);

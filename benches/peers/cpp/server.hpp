@@ -1,6 +1,5 @@
-// SPDX-License-Identifier: MIT OR Apache-2.0
-// What the C++ contestants share: the file of pairs of pairs.py, and the server that times one pass over a group on request;
-// the same protocol as rust/src/server.rs, where it is described.
+// SPDX-License-Identifier: MIT OR Apache-2.0 What the C++ contestants share: the file of pairs of pairs.py, and the
+// server that times one pass over a group on request; the same protocol as rust/src/server.rs, where it is described.
 #pragma once
 
 #include <array>
@@ -95,7 +94,8 @@ inline std::vector<Group> read(const char* path) {
     return groups;
 }
 
-// Seconds a call. The first walk through the poses, untimed, brings code and data into the caches and fills the memories.
+// Seconds a call. The first walk through the poses, untimed, brings code and data into the caches and fills the
+// memories.
 inline double time(Contestant& contestant, std::size_t poses, std::size_t pairs, bool warm, double least) {
     using Clock = std::chrono::steady_clock;
     auto walk = [&] {
@@ -121,7 +121,9 @@ inline void print(const std::vector<Answer>& answers) {
         const auto &p = answer.point, &n = answer.normal;
         if (answer.kind == Kind::failed) std::printf("null");
         else if (answer.kind == Kind::apart) std::printf("[]");
-        else std::printf("[%.17g, %.17g, %.17g, %.17g, %.17g, %.17g, %.17g]", answer.overlap, p[0], p[1], p[2], n[0], n[1], n[2]);
+        else
+            std::printf("[%.17g, %.17g, %.17g, %.17g, %.17g, %.17g, %.17g]", answer.overlap, p[0], p[1], p[2], n[0],
+                        n[1], n[2]);
     }
     std::printf("]\n");
 }

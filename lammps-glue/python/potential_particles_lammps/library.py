@@ -18,9 +18,11 @@ class Pose(ctypes.Structure):
 
 
 class Contact(ctypes.Structure):
-    _fields_ = ([("kind", ctypes.c_int32)] + [(name, ctypes.c_uint32) for name in ("formulation", "back_end", "flags", "iterations", "reserved")]
+    _fields_ = ([("kind", ctypes.c_int32)]
+                + [(name, ctypes.c_uint32) for name in ("formulation", "back_end", "flags", "iterations", "reserved")]
                 + [(name, ctypes.c_double) for name in ("s", "s_b", "weight", "gap", "point_bound", "overlap")]
-                + [(name, ctypes.c_double * 3) for name in ("normal", "point", "branch_a", "branch_b", "point_on_a", "point_on_b")]
+                + [(name, ctypes.c_double * 3)
+                   for name in ("normal", "point", "branch_a", "branch_b", "point_on_a", "point_on_b")]
                 + [("distance", ctypes.c_double)])
 
 
@@ -31,26 +33,34 @@ class FlatContact(ctypes.Structure):
 
 
 class MassProperties(ctypes.Structure):
-    _fields_ = [("volume", ctypes.c_double), ("centroid", ctypes.c_double * 3), ("inertia", ctypes.c_double * 6), ("error", ctypes.c_double)]
+    _fields_ = [("volume", ctypes.c_double), ("centroid", ctypes.c_double * 3), ("inertia", ctypes.c_double * 6),
+                ("error", ctypes.c_double)]
 
 
 @lru_cache(maxsize=1)
 def library():
     """The shared library: $PP_LIBRARY, or target/release of this repository."""
-    path = Path(os.environ.get("PP_LIBRARY") or Path(os.environ.get("CARGO_TARGET_DIR", _TOP / "target")) / "release" / "libpotential_particles.so")
+    path = Path(
+        os.environ.get("PP_LIBRARY")
+        or Path(os.environ.get("CARGO_TARGET_DIR", _TOP / "target")) / "release" / "libpotential_particles.so")
     if not path.exists():
         raise FileNotFoundError(f"{path}: build it with `make library`, or set PP_LIBRARY to where it is")
     loaded = ctypes.CDLL(str(path))
     if loaded.pp_abi_version() != ABI_VERSION:
-        raise ImportError(f"{path} has interface {loaded.pp_abi_version()}, this module needs {ABI_VERSION}: build the library anew")
+        raise ImportError(
+            f"{path} has interface {loaded.pp_abi_version()}, this module needs {ABI_VERSION}: build the library anew")
     loaded.pp_status_message.restype = ctypes.c_char_p
-    loaded.pp_particle_new.argtypes = [ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p,
-                                       ctypes.c_char_p, ctypes.c_size_t]
+    loaded.pp_particle_new.argtypes = [
+        ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p,
+        ctypes.c_char_p, ctypes.c_size_t
+    ]
     loaded.pp_particle_free.argtypes = [ctypes.c_void_p]
     loaded.pp_particle_bounding_radius.argtypes = [ctypes.c_void_p, ctypes.c_void_p]
     loaded.pp_particle_mass_properties.argtypes = [ctypes.c_void_p, ctypes.c_double, ctypes.c_void_p]
-    loaded.pp_particle_mesh.argtypes = [ctypes.c_void_p, ctypes.c_double] + [ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p,
-                                                                             ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p]
+    loaded.pp_particle_mesh.argtypes = [ctypes.c_void_p, ctypes.c_double] + [
+        ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_size_t,
+        ctypes.c_void_p, ctypes.c_void_p
+    ]
     loaded.pp_contact_detect.argtypes = [ctypes.c_void_p] * 7
     loaded.pp_contact_plane.argtypes = [ctypes.c_void_p] * 7
     return loaded
@@ -62,13 +72,17 @@ def check(status):
 
 
 class Particle:
-    """planes: (n, 4) rows a, b, c, d; r, k, R as in the library. `volume`, `centroid` and `inertia` (3, 3) are for density 1."""
+    """planes: (n, 4) rows a, b, c, d; r, k, R as in the library. `volume`, `centroid` and `inertia` (3, 3) are for
+    density 1.
+    """
 
     def __init__(self, planes, r, k, R):
-        self.planes, self.r, self.k, self.R = np.ascontiguousarray(planes, float).reshape(-1, 4), float(r), float(k), float(R)
+        self.planes, self.r, self.k, self.R = np.ascontiguousarray(planes,
+                                                                   float).reshape(-1, 4), float(r), float(k), float(R)
         self.handle = ctypes.c_void_p()
         why = ctypes.create_string_buffer(MESSAGE_SIZE)
-        if library().pp_particle_new(self.planes.ctypes.data, len(self.planes), self.r, self.k, self.R, ctypes.byref(self.handle), why, MESSAGE_SIZE):
+        if library().pp_particle_new(self.planes.ctypes.data, len(self.planes), self.r, self.k, self.R,
+                                     ctypes.byref(self.handle), why, MESSAGE_SIZE):
             raise ValueError(why.value.decode())
         mass, radius = MassProperties(), ctypes.c_double()
         check(library().pp_particle_mass_properties(self.handle, 1e-9, ctypes.byref(mass)))
@@ -85,10 +99,12 @@ class Particle:
     def mesh(self, tolerance=1e-3):
         """Vertices (n, 3) and triangles (m, 3), local frame; `tolerance` over the bounding radius."""
         counts = ctypes.c_size_t(), ctypes.c_size_t()
-        library().pp_particle_mesh(self.handle, tolerance, None, None, 0, ctypes.byref(counts[0]), None, 0, ctypes.byref(counts[1]), None)
+        library().pp_particle_mesh(self.handle, tolerance, None, None, 0, ctypes.byref(counts[0]), None, 0,
+                                   ctypes.byref(counts[1]), None)
         vertices, triangles = np.empty((counts[0].value, 3)), np.empty((counts[1].value, 3), np.uint32)
-        check(library().pp_particle_mesh(self.handle, tolerance, vertices.ctypes.data, None, len(vertices), ctypes.byref(counts[0]),
-                                         triangles.ctypes.data, len(triangles), ctypes.byref(counts[1]), None))
+        check(library().pp_particle_mesh(self.handle, tolerance, vertices.ctypes.data, None, len(vertices),
+                                         ctypes.byref(counts[0]), triangles.ctypes.data, len(triangles),
+                                         ctypes.byref(counts[1]), None))
         return vertices, triangles
 
 
@@ -99,7 +115,8 @@ def pose(position, orientation):
 def detect(a, pose_a, b, pose_b):
     """The Contact of two particles, with default settings and no memory."""
     contact = Contact()
-    check(library().pp_contact_detect(a.handle, ctypes.byref(pose_a), b.handle, ctypes.byref(pose_b), None, None, ctypes.byref(contact)))
+    check(library().pp_contact_detect(a.handle, ctypes.byref(pose_a), b.handle, ctypes.byref(pose_b), None, None,
+                                      ctypes.byref(contact)))
     return contact
 
 
@@ -107,5 +124,6 @@ def detect_plane(a, pose_a, point, normal):
     """The FlatContact of a particle with a plane."""
     contact = FlatContact()
     three = ctypes.c_double * 3
-    check(library().pp_contact_plane(a.handle, ctypes.byref(pose_a), three(*point), three(*normal), None, None, ctypes.byref(contact)))
+    check(library().pp_contact_plane(a.handle, ctypes.byref(pose_a), three(*point), three(*normal), None, None,
+                                     ctypes.byref(contact)))
     return contact

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """From LAMMPS's dumps to ParaView and PNG.
 
-A dump has bodies as they are: dump 1 all custom 500 pile.dump id type x y z vx vy vz d2_orientation[1] d2_orientation[2] d2_orientation[3] d2_orientation[4]
+A dump has bodies as they are: dump 1 all custom 500 pile.dump id type x y z vx vy vz d2_orientation[1]
+    d2_orientation[2] d2_orientation[3] d2_orientation[4]
 """
 import importlib.util
 import sys
@@ -13,7 +14,8 @@ from .files import written
 from .shapes import read_shapes
 
 # OpenGL without a display, of the package for YADE: the file stands alone.
-GRAPHICS = Path(__file__).resolve().parents[3] / "yade-glue" / "python" / "potential_particles" / "output" / "graphics.py"
+GRAPHICS = Path(
+    __file__).resolve().parents[3] / "yade-glue" / "python" / "potential_particles" / "output" / "graphics.py"
 QUATERNION = [f"d2_orientation[{n}]" for n in (1, 2, 3, 4)]
 
 
@@ -43,7 +45,9 @@ def _rotations(q):
 
 
 def polydata(columns, shapes, tolerance=5e-3):
-    """Bodies as one vtkPolyData. shapes: the Particle of each type, from type 1; type, id and speed are data of the cells."""
+    """Bodies as one vtkPolyData. shapes: the Particle of each type, from type 1; type, id and speed are data of the
+    cells.
+    """
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     points, triangles, owners, first = [], [], [], 0
@@ -62,7 +66,8 @@ def polydata(columns, shapes, tolerance=5e-3):
     data.SetPoints(place)
     faces = np.concatenate(triangles)
     cells = vtk.vtkCellArray()
-    cells.SetCells(len(faces), numpy_to_vtkIdTypeArray(np.column_stack([np.full(len(faces), 3), faces]).ravel(), deep=True))
+    cells.SetCells(len(faces),
+                   numpy_to_vtkIdTypeArray(np.column_stack([np.full(len(faces), 3), faces]).ravel(), deep=True))
     data.SetPolys(cells)
     owner = np.concatenate(owners)
     values = {"type": columns["type"], "id": columns["id"]}
@@ -76,7 +81,9 @@ def polydata(columns, shapes, tolerance=5e-3):
 
 
 def write_vtk(dump, shapes, stem):
-    """Writes stem.STEP.vtp for each frame of a dump, and stem.pvd, which ParaView opens. shapes: the Particle of each type."""
+    """Writes stem.STEP.vtp for each frame of a dump, and stem.pvd, which ParaView opens. shapes: the Particle of each
+    type.
+    """
     import vtk
     entries = []
     for step, columns in frames(dump):
@@ -92,8 +99,11 @@ def write_vtk(dump, shapes, stem):
     return len(entries)
 
 
-def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(0.5, -1.0, 0.45), colour="type", zoom=1.35, pixels=(1200, 900)):
-    """The last (or another) frame of a dump as a PNG. mesh: an STL file, drawn transparent, turned about y by `mesh_turn` degrees."""
+def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(0.5, -1.0, 0.45), colour="type",
+                  zoom=1.35, pixels=(1200, 900)):
+    """The last (or another) frame of a dump as a PNG. mesh: an STL file, drawn transparent, turned about y by
+    `mesh_turn` degrees.
+    """
     import vtk
     step, columns = list(frames(dump))[frame]
     renderer = vtk.vtkRenderer()
@@ -165,7 +175,8 @@ def main():
     known = read_shapes(sys.argv[2])
     shapes = [known[name] for name in sys.argv[3].split(",")]
     count = write_vtk(sys.argv[1], shapes, sys.argv[4])
-    write_picture(sys.argv[1], shapes, sys.argv[4] + ".png", *(sys.argv[5:6] or [None]), *(float(x) for x in sys.argv[6:7]))
+    write_picture(sys.argv[1], shapes, sys.argv[4] + ".png", *(sys.argv[5:6] or [None]),
+                  *(float(x) for x in sys.argv[6:7]))
     print(f"{sys.argv[4]}.pvd with {count} frames, {sys.argv[4]}.png")
 
 

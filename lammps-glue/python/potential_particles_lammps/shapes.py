@@ -10,26 +10,34 @@ CENTRED, ROUNDS = 1e-9, 20
 
 
 def polyhedron(normals, distances, rounding):
-    """A Particle with k = 0 whose faces lie at these distances from the origin along these normals; edges are rounded by `rounding` (length)."""
+    """A Particle with k = 0 whose faces lie at these distances from the origin along these normals; edges are rounded
+    by `rounding` (length).
+    """
     normals = np.asarray(normals, float)
     normals = normals / np.linalg.norm(normals, axis=1)[:, None]
-    return Particle(np.column_stack([normals, np.asarray(distances, float) - rounding]), rounding, 0.0, np.max(distances))
+    return Particle(np.column_stack([normals, np.asarray(distances, float) - rounding]), rounding, 0.0,
+                    np.max(distances))
 
 
 def principal(particle):
-    """The same shape about its centre of mass, in principal axes; and what carries a point of that frame into the old one: (centre, rotation)."""
+    """The same shape about its centre of mass, in principal axes; and what carries a point of that frame into the old
+    one: (centre, rotation).
+    """
     centre, rotation = np.zeros(3), np.eye(3)
     for _ in range(ROUNDS):
         size = np.abs(particle.inertia).max()
-        if np.linalg.norm(particle.centroid) <= CENTRED * particle.radius and np.abs(particle.inertia - np.diag(np.diag(particle.inertia))).max() <= CENTRED * size:
+        if np.linalg.norm(particle.centroid) <= CENTRED * particle.radius and np.abs(
+                particle.inertia - np.diag(np.diag(particle.inertia))).max() <= CENTRED * size:
             return particle, (centre, rotation)
         if particle.k > 0 and np.linalg.norm(particle.centroid) > CENTRED * particle.radius:
             turn = np.eye(3)  # the shadow sphere stays about the origin: shape and centre change together
         else:
-            turn = _axes(particle.inertia - particle.volume * (particle.centroid @ particle.centroid * np.eye(3) - np.outer(particle.centroid, particle.centroid)))
+            turn = _axes(particle.inertia - particle.volume * (particle.centroid @ particle.centroid * np.eye(3)
+                                                               - np.outer(particle.centroid, particle.centroid)))
         normals, offsets = particle.planes[:, :3], particle.planes[:, 3]
         centre, rotation = centre + rotation @ particle.centroid, rotation @ turn
-        particle = Particle(np.column_stack([normals @ turn, offsets - normals @ particle.centroid]), particle.r, particle.k, particle.R)
+        particle = Particle(np.column_stack([normals @ turn, offsets - normals @ particle.centroid]), particle.r,
+                            particle.k, particle.R)
     raise ValueError("the shape cannot be centred: choose another origin, nearer to its centre of mass")
 
 
@@ -49,7 +57,9 @@ def _axes(inertia):
 
 
 def write_shapes(path, shapes):
-    """shapes: {name: Particle}. Each is written about its centre of mass and in principal axes; returns {name: (centre, rotation)}, in the old frame."""
+    """shapes: {name: Particle}. Each is written about its centre of mass and in principal axes; returns {name: (centre,
+    rotation)}, in the old frame.
+    """
     frames = {}
     with written(path, text=True) as file:
         for name, particle in shapes.items():
@@ -93,5 +103,6 @@ def write_drum(path, radius, length, sides=48):
     with written(path, text=True) as file:
         file.write("solid drum\n")
         for triangle in triangles:
-            file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.7g %.7g %.7g\n" % tuple(v) for v in triangle) + "endloop\nendfacet\n")
+            file.write("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.7g %.7g %.7g\n" % tuple(v)
+                                                                    for v in triangle) + "endloop\nendfacet\n")
         file.write("endsolid drum\n")

@@ -36,8 +36,8 @@ fn a_closest_point_is_within_its_bound_after_a_long_step() {
     judged("closest_off_by_a_size", &[BoundOfPoint, OffSurface]);
 }
 
-/// Rounding moves the minimum of each λ anew along soft directions: the search for λ stalled, and the side that was left
-/// open by a thousand times its rounding was not counted in the bound of P2.
+/// Rounding moves the minimum of each λ anew along soft directions: the search for λ stalled, and the side that was
+/// left open by a thousand times its rounding was not counted in the bound of P2.
 #[test]
 fn a_closest_point_with_soft_directions_is_within_its_bound() {
     judged("closest_with_soft_directions", &[BoundOfPoint]);
@@ -66,8 +66,8 @@ fn closest_from_memory_is_not_slack_for_want_of_a_bound() {
     judged_by("a_plane_at_its_switch_from_memory", &[Warm], 555_473_478, 656_280);
 }
 
-/// P1 lies in the core of a sharp body, at planes that push with 10⁻²⁴ of its size; in the others both bodies are deep inside
-/// each other besides, with forces of 10⁻⁹ of those expected.
+/// P1 lies in the core of a sharp body, at planes that push with 10⁻²⁴ of its size; in the others both bodies are deep
+/// inside each other besides, with forces of 10⁻⁹ of those expected.
 #[test]
 fn closest_points_in_the_core_of_a_sharp_body_are_known() {
     for name in ["closest_in_a_core", "closest_deep_in_each_other", "closest_deep_in_each_other_again"] {
@@ -87,15 +87,16 @@ fn a_closest_point_whose_weight_is_lost_in_rounding_is_on_its_surface() {
     assert!((contact.s - 9.3376e-6).abs() < 1e-9 + contact.gap && contact.gap < 1e-6, "{contact:?}");
 }
 
-/// B has a size of 10⁻⁴ and r = 10⁻¹², A a size of 1. The judge's search ended at an infeasible point, outside A, where S of B is 1; at P1 it is 10⁷. From
-/// the smaller value it bounded the distance to P1, which made its lower bound of s too high. The cone program agrees with the answer.
+/// B has a size of 10⁻⁴ and r = 10⁻¹², A a size of 1. The judge's search ended at an infeasible point, outside A, where
+/// S of B is 1; at P1 it is 10⁷. From the smaller value it bounded the distance to P1, which made its lower bound of s
+/// too high. The cone program agrees with the answer.
 #[test]
 fn the_judge_bounds_the_distance_by_a_feasible_point() {
     judged_by("small_body_far_from_the_point_on_a", &[BoundOfS], 875_949_039, 20_881);
 }
 
-/// B is a plate with r = 5·10⁻¹⁶, and the rounding of a point of A, 10⁻¹⁵, moves P1 across that rounding: s_B there is 4·10⁻⁴ or 0.86. The bound took S_B to be
-/// the same quadratic on that way, on which a plane of B comes on.
+/// B is a plate with r = 5·10⁻¹⁶, and the rounding of a point of A, 10⁻¹⁵, moves P1 across that rounding: s_B there is
+/// 4·10⁻⁴ or 0.86. The bound took S_B to be the same quadratic on that way, on which a plane of B comes on.
 #[test]
 fn the_bound_counts_planes_of_one_body_within_the_rounding_of_the_other() {
     judged_by("plate_whose_face_lies_within_the_rounding_of_the_other_body", &[BoundOfS], 635_189_490, 874_165);

@@ -16,8 +16,8 @@ fn weak_planes_count_in_the_bounds() {
     }
 }
 
-/// A small body at the corner of a box, 500 away from its centre: the rotation of that arm rounds more than the distances
-/// to the planes near the corner.
+/// A small body at the corner of a box, 500 away from its centre: the rotation of that arm rounds more than the
+/// distances to the planes near the corner.
 #[test]
 fn the_gap_counts_the_arm_of_a_corner_far_from_its_centre() {
     judged("corner_far_from_its_centre", &[BoundOfS]);
@@ -41,8 +41,8 @@ fn a_separation_proved_on_the_way_gives_a_lower_bound() {
     judged("separated_on_the_way", &[Reject]);
 }
 
-/// With default settings the first answer is loose, and the next one a proof of separation: overlapping was told, with a
-/// gap of 130.
+/// With default settings the first answer is loose, and the next one a proof of separation: overlapping was told, with
+/// a gap of 130.
 #[test]
 fn a_separation_proved_after_a_loose_answer_is_the_answer() {
     judged("separated_after_a_loose_answer", &[Reject, Error, Warm]);
@@ -87,7 +87,8 @@ fn the_gap_is_small_where_r_is_below_the_rounding_of_a_distance() {
     judged("r_below_rounding", &[LooseBound]);
 }
 
-/// Solved over a long step, from where the planes are known to no more than 1e-4 of s; surface points were off by as much.
+/// Solved over a long step, from where the planes are known to no more than 1e-4 of s; surface points were off by as
+/// much.
 #[test]
 fn the_gap_is_not_that_of_a_long_step() {
     for name in ["long_step", "long_step_to_an_overlap_of_nothing"] {
@@ -107,7 +108,8 @@ fn the_gap_is_small_where_a_pull_cannot_be_told_from_a_push() {
     judged("pull_or_push", &[LooseBound]);
 }
 
-/// s of 1e11: the rounding of forces 1e10 times as large as at a contact was counted as if the spheres alone resisted it.
+/// s of 1e11: the rounding of forces 1e10 times as large as at a contact was counted as if the spheres alone resisted
+/// it.
 #[test]
 fn the_gap_is_small_far_from_both_bodies() {
     for name in ["far_from_both_bodies", "far_from_both_bodies_at_their_edges"] {
@@ -121,8 +123,8 @@ fn the_gap_is_small_on_a_face_with_hardly_a_sphere() {
     judged("face_with_hardly_a_sphere", &[LooseBound]);
 }
 
-/// Two bodies next to each other whose point of equal s is 7e5 away from both: the judge knew of the lengths of the bodies
-/// only.
+/// Two bodies next to each other whose point of equal s is 7e5 away from both: the judge knew of the lengths of the
+/// bodies only.
 #[test]
 fn the_gap_is_small_for_equal_scales_far_from_both_centres() {
     judged("equal_scales_far_from_both", &[LooseBound]);
@@ -162,7 +164,8 @@ fn the_gap_is_small_for_a_contact_far_from_one_centre() {
     judged("contact_far_from_one_centre", &[LooseBound]);
 }
 
-/// k = 0, face on face, and a plane at the edge whose push is within rounding: without it a step went 1e5 along the face.
+/// k = 0, face on face, and a plane at the edge whose push is within rounding: without it a step went 1e5 along the
+/// face.
 #[test]
 fn the_gap_is_small_on_a_face_held_by_a_weak_push() {
     judged("face_held_by_a_weak_push", &[LooseBound, BoundOfS]);
@@ -182,15 +185,16 @@ fn the_gap_is_small_where_the_way_meets_other_planes() {
     }
 }
 
-/// A needle 1e6 long touches with its tip, and both sides of it push, 2e-6 from parallel: what rounding does to s there is
-/// not of first order, of which alone the judge knew.
+/// A needle 1e6 long touches with its tip, and both sides of it push, 2e-6 from parallel: what rounding does to s there
+/// is not of first order, of which alone the judge knew.
 #[test]
 fn the_gap_is_small_at_the_tip_of_a_wedge() {
     judged("tip_of_a_wedge", &[LooseBound]);
 }
 
-/// Without a plane on one side, or with faces that all but oppose each other, bodies have their optimum 10⁴ to 10¹⁴ sizes away. The rounding of a
-/// turn moves it in proportion to that lever arm; the judge counted the distance of the centres only.
+/// Without a plane on one side, or with faces that all but oppose each other, bodies have their optimum 10⁴ to 10¹⁴
+/// sizes away. The rounding of a turn moves it in proportion to that lever arm; the judge counted the distance of the
+/// centres only.
 #[test]
 fn s_is_that_of_the_pair_turned_however_far_the_point() {
     judged_by("far_point_of_edges", &[RigidMotion], 178_870_341, 10_000_028_219_586);
@@ -198,16 +202,17 @@ fn s_is_that_of_the_pair_turned_however_far_the_point() {
     judged_by("far_point_of_two_plates", &[RigidMotion], 178_870_341, 10_000_036_594_833);
 }
 
-/// k = 0: at the minimum for one λ a plane's depth is below the last of 32 digits. Taken for off, it came on at the first part of
-/// every step, and the search ended there with a gap of 0.14, and of 13 beside s of 1.7e6.
+/// k = 0: at the minimum for one λ a plane's depth is below the last of 32 digits. Taken for off, it came on at the
+/// first part of every step, and the search ended there with a gap of 0.14, and of 13 beside s of 1.7e6.
 #[test]
 fn the_gap_is_small_where_a_plane_is_at_its_switch() {
     judged_by("a_plane_at_its_switch", &[LooseBound], 870_677_402, 168_837);
     judged_by("a_plane_at_its_switch_far_apart", &[LooseBound], 22_896_182, 104_192);
 }
 
-/// A plane comes on at the very start of the step, so that the line search ran out of halvings at 10⁻¹⁸ of it. That is still above the rounding of 32
-/// digits: the step counted as progress and was repeated up to the limit of steps. The gaps were 3·10⁻⁶ and 9·10⁻⁵.
+/// A plane comes on at the very start of the step, so that the line search ran out of halvings at 10⁻¹⁸ of it. That is
+/// still above the rounding of 32 digits: the step counted as progress and was repeated up to the limit of steps. The
+/// gaps were 3·10⁻⁶ and 9·10⁻⁵.
 #[test]
 fn the_gap_is_small_where_a_plane_comes_on_below_the_last_trial() {
     judged_by("search_below_the_last_trial", &[LooseBound], 178_870_341, 10_000_084_502_295);

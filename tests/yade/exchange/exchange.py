@@ -38,11 +38,16 @@ def set_engines():
 
 
 def numbers():
-    """What a file must bring back to the last digit. (The overlap is not in it: YADE computes that anew in each step.)"""
-    contacts = [(list(c.geom.contactPoint), list(c.phys.normalForce), getattr(c.geom, "memory", None), type(c.geom).__name__)
+    """What a file must bring back to the last digit. (The overlap is not in it: YADE computes that anew in each step.)
+    """
+    contacts = [(list(c.geom.contactPoint), list(c.phys.normalForce), getattr(c.geom, "memory",
+                                                                              None), type(c.geom).__name__)
                 for c in O.interactions if c.isReal]
     shapes = [[b.shape.r, b.shape.R, b.shape.k, *b.shape.a, *b.shape.d] for b in O.bodies]
-    return {"state": state_numbers(), "shapes": shapes, "contacts": contacts, "classes": [type(b.shape).__name__ for b in O.bodies]}
+    return {
+        "state": state_numbers(), "shapes": shapes, "contacts": contacts,
+        "classes": [type(b.shape).__name__ for b in O.bodies]
+    }
 
 
 def save(check):
@@ -72,8 +77,9 @@ def boost():
 
 
 def may_load(name, ending, writer):
-    """Whether this YADE reads such a file: binary ones of a newer Boost never, engines only of the same YADE, and contacts
-    only if FrictPhys is the same, which has an attribute more since 2026."""
+    """Whether this YADE reads such a file: binary ones of a newer Boost never, engines only of the same YADE, and
+    contacts only if FrictPhys is the same, which has an attribute more since 2026.
+    """
     if writer["yade"] == yade.config.version:
         return True
     if ending == "yade.gz" and writer["boost"] > boost():
@@ -108,7 +114,8 @@ def load(check):
                 potential_particles.prepare()
             before = O.bodies[1].state.pos[2]
             run(200)
-            check.true(O.interactions[0, 1].isReal and abs(O.bodies[1].state.pos[2] - before) < 0.01, f"{what}: it goes on")
+            check.true(O.interactions[0, 1].isReal and abs(O.bodies[1].state.pos[2] - before) < 0.01,
+                       f"{what}: it goes on")
 
 
 checks = Checks()

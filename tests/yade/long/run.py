@@ -40,8 +40,9 @@ KEPT_STATES = ("positions", "orientations", "velocities")  # m, 1, m/s
 # Rise of the total energy between two looks, and its change over the second half, over weight x size:
 # damping only takes, and a pile at rest has nothing left to give but slow spins. (A short run is not quite there.)
 MOST_RISE, MOST_DRIFT = (1e-6, 0.1) if SHORT else (1e-9, 1e-6)
-# m, 1, m/s: how far a loaded run may be from the unbroken one after LATER steps. Every contact is the same bit by bit until YADE, which orders its
-# pairs anew when it loads, sums forces in another order; the pile amplifies that last digit, by chance more or less, with either functor.
+# m, 1, m/s: how far a loaded run may be from the unbroken one after LATER steps. Every contact is the same bit by bit
+# until YADE, which orders its pairs anew when it loads, sums forces in another order; the pile amplifies that last
+# digit, by chance more or less, with either functor.
 MOST_APART = {"positions": 1e-6, "orientations": 1e-5, "velocities": 1e-3}
 MOST_OVERLAP = 0.05  # over the size
 # MiB: a hundred records and Python's own ups and downs; one byte a pair and step would be tens of times that.
@@ -120,14 +121,18 @@ def options_of(folder, name):
 def resumed(folder, name, threads, step):
     """A run loaded from the save at a step, LATER steps on."""
     result = folder / "resumed.json"
-    finish(yade(threads, "kept.py", **options_of(folder, name), FROM=step, RESULT=result), f"{name}, loaded at step {step}")
+    finish(yade(threads, "kept.py", **options_of(folder, name), FROM=step, RESULT=result),
+           f"{name}, loaded at step {step}")
     return json.loads(result.read_text())
 
 
 def apart(one, other, step):
     """Largest difference of any number of two states: {positions: m, orientations: 1, velocities: m/s}."""
     pair = [found["states"][str(step)] for found in (one, other)]
-    return {key: max(abs(x - y) for p, q in zip(pair[0][key], pair[1][key]) for x, y in zip(p, q)) for key in KEPT_STATES}
+    return {
+        key: max(abs(x - y) for p, q in zip(pair[0][key], pair[1][key]) for x, y in zip(p, q))
+        for key in KEPT_STATES
+    }
 
 
 def worst(rows):
@@ -137,7 +142,8 @@ def worst(rows):
 def unbroken_and_reloaded(folder, functor, threads, saves):
     """The run that went on, and how far those loaded from its saves are from it after LATER steps."""
     name, result = f"{functor}-{threads}", folder / "unbroken.json"
-    finish(yade(threads, "kept.py", BODIES=KEPT_BODIES, FUNCTOR=functor, **options_of(folder, name), RESULT=result), name)
+    finish(yade(threads, "kept.py", BODIES=KEPT_BODIES, FUNCTOR=functor, **options_of(folder, name), RESULT=result),
+           name)
     unbroken = json.loads(result.read_text())
     rows = [apart(unbroken, resumed(folder, name, threads, step), step + LATER) for step in saves]
     exact = sum(all(value == 0 for value in row.values()) for row in rows)
@@ -241,9 +247,10 @@ def go(summary):
 def main():
     out = settings.folder("OUTPUT", TOP / "out" / "long")
     out.mkdir(parents=True, exist_ok=True)
-    summary = {"machine": machine.machine_line(), "date": machine.now(), "seed": SEED, "short": SHORT, "interrupted": False,
-               "piles": [], "reloads": [], "kills": [],
-               "starts": {"starts": 0, "failed": [], "endings": {}, "seconds": 0.0}}
+    summary = {
+        "machine": machine.machine_line(), "date": machine.now(), "seed": SEED, "short": SHORT, "interrupted": False,
+        "piles": [], "reloads": [], "kills": [], "starts": {"starts": 0, "failed": [], "endings": {}, "seconds": 0.0}
+    }
     try:
         go(summary)
     except KeyboardInterrupt:
@@ -266,19 +273,23 @@ def main():
 
 def show(summary):
     """Tables of a run; docs/reliability.md has their sum."""
-    print("\n| pile | steps | contacts asked for | failures | lost | energy, largest rise, W x size | drift in the second half "
-          "| largest overlap, size | memory grew by, MiB | time, s |\n|---|---|---|---|---|---|---|---|---|---|")
+    print(
+        "\n| pile | steps | contacts asked for | failures | lost | energy, largest rise, W x size | drift in the second half "
+        "| largest overlap, size | memory grew by, MiB | time, s |\n|---|---|---|---|---|---|---|---|---|---|")
     for p in summary["piles"]:
         print(f"| {p['name']} | {p['steps']:,} | {p['calls']:,} | {p['failures']} | {p['lost']} "
               f"| {p['largest_rise_over_weight_size']:.1e} | {p['drift_in_second_half_over_weight_size']:.1e} "
               f"| {p['largest_overlap_over_size']:.1e} | {p['growth_MiB']:.2f} | {p['seconds']:.0f} |")
-    print("\n| unbroken against loaded | saves | bit by bit | positions, m | orientations | velocities, m/s |\n|---|---|---|---|---|---|")
+    print(
+        "\n| unbroken against loaded | saves | bit by bit | positions, m | orientations | velocities, m/s |\n|---|---|---|---|---|---|"
+    )
     for row in summary["reloads"]:
         print(f"| {row['functor']}, -j{row['threads']} | {len(row['saves'])} | {row['exact']} | "
               + " | ".join(f"{row[key]:.1e}" for key in KEPT_STATES) + " |")
     kills = summary["kills"]
     exact = sum(all(row[key] == 0 for key in KEPT_STATES) for row in kills)
-    print(f"| library, -j1, killed | {len(kills)} | {exact} | " + " | ".join(f"{value:.1e}" for value in worst(kills).values()) + " |")
+    print(f"| library, -j1, killed | {len(kills)} | {exact} | " + " | ".join(f"{value:.1e}"
+                                                                             for value in worst(kills).values()) + " |")
     begun = summary["starts"]
     print(f"\n{begun['starts']} starts, {len(begun['failed'])} failed, {begun['seconds']:.0f} s\n", flush=True)
 

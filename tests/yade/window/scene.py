@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Runs in a YADE with a display: what its 3-D window shows, pixel by pixel, against the shapes themselves.
 
-Argument: when the plugin is imported, "before" the window is opened, "after", or "first", before YADE has made a renderer.
-PP_PICTURE in the environment names a file for the first picture.
+Argument: when the plugin is imported, "before" the window is opened, "after", or "first", before YADE has made a
+renderer. PP_PICTURE in the environment names a file for the first picture.
 """
 import contextlib
 import os
@@ -39,7 +39,8 @@ from potential_particles import shapes  # noqa: E402
 check = Checks()
 folder = tempfile.TemporaryDirectory()
 SPACING = 2.6
-# Pixels by which an outline may be off: 1 % of a radius of some 60 pixels, the rounding to pixels, the blocks of a JPEG.
+# Pixels by which an outline may be off: 1 % of a radius of some 60 pixels, the rounding to pixels, the blocks of a
+# JPEG.
 MARGIN = 2.5
 PATIENCE = 120  # seconds, for a busy machine
 
@@ -100,14 +101,16 @@ def surface(body):
     if isinstance(shape, yade.Sphere):
         local = shape.radius * rays
     else:
-        known = yade.ConicPotentialParticle(planes=list(zip(shape.a, shape.b, shape.c, shape.d)), r=shape.r, k=shape.k, R=shape.R)
+        known = yade.ConicPotentialParticle(planes=list(zip(shape.a, shape.b, shape.c, shape.d)), r=shape.r, k=shape.k,
+                                            R=shape.R)
         local = rays * np.array(known.surfaceDistance([Vector3(*ray) for ray in rays]))[:, None]
     return local @ np.array(body.state.ori.toRotationMatrix()).reshape(3, 3).T + np.array(body.state.pos)
 
 
 def box(points):
     low, high = points.min(0), points.max(0)
-    return np.array([[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    return np.array([[(low, high)[i][0], (low, high)[j][1], (low, high)[k][2]] for i in (0, 1) for j in (0, 1)
+                     for k in (0, 1)])
 
 
 def lit(image):
@@ -115,14 +118,18 @@ def lit(image):
 
 
 def judge(image, body, text, margin=MARGIN):
-    """The body fills its outline, in its colour, and nothing else around it. Returns how many pixels of its box are empty."""
+    """The body fills its outline, in its colour, and nothing else around it. Returns how many pixels of its box are
+    empty.
+    """
     points, place = surface(body), place_of(body)
     image, off = image[place], beyond(place, points)
     inside, outside, bright = off < -margin, off > margin, lit(image)
-    check.true(inside.sum() > 1500 and bright[inside].all(), f"{text}: {(~bright[inside]).sum()} of {inside.sum()} pixels inside are empty")
+    check.true(inside.sum() > 1500 and bright[inside].all(),
+               f"{text}: {(~bright[inside]).sum()} of {inside.sum()} pixels inside are empty")
     check.true(not bright[outside].any(), f"{text}: {bright[outside].sum()} pixels outside are not")
     shown, wanted = image[inside].mean(axis=0) - background, np.array(body.shape.color)
-    check.true(shown[wanted == 1].min() > 1.5 * shown[wanted == 0].max() + 0.05, f"{text}: its colour, {shown} over the background")
+    check.true(shown[wanted == 1].min() > 1.5 * shown[wanted == 0].max() + 0.05,
+               f"{text}: its colour, {shown} over the background")
     return (outside & (beyond(place, box(points)) < -margin)).sum()
 
 
@@ -146,7 +153,8 @@ bodies = {
     "pyramid": place(pyramid(size=0.6), 1, 0, (1, 0, 0), turn=turned((1, 0.3, 0), 1.0)),
     "sharp cube": place(cube(half=0.65, r=1e-6, k=1e-6, R=2), 2, 0, (0, 1, 0), turn=turned((1, 2, 3), 0.7)),
     "rock": place(shapes.random_rock(3, 1.5, elongation=0.7).particle(), 0, 1, (1, 1, 0), turn=turned((0, 1, 1), 0.5)),
-    "plain pyramid": place(plain(pyramid_planes(0.6), r=0.05, k=0.05, R=0.9), 1, 1, (1, 0, 1), turn=turned((0, 0, 1), 0.6)),
+    "plain pyramid": place(plain(pyramid_planes(0.6), r=0.05, k=0.05, R=0.9), 1, 1, (1, 0, 1), turn=turned((0, 0, 1),
+                                                                                                           0.6)),
     "ball": place(yade.ConicPotentialParticle(k=1, R=0.9), 2, 1, (0, 1, 1)),
 }
 lines = place(cube(half=0.7, R=2), 0, 2, (1, 1, 1), wire=True, turn=turned((1, 1, 0), 0.4))

@@ -144,8 +144,8 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
         }
         let body = &scene.bodies()[i];
         let off = off_surface(body, &point);
-        // Where s bends within the rounding of the point, the first order says nothing: then there has to be a point inside
-        // and one outside within that.
+        // Where s bends within the rounding of the point, the first order says nothing: then there has to be a point
+        // inside and one outside within that.
         let inside = |p: Vector3<f64>| body.at(&Wide3::from(p)).value.f64() <= 1.0;
         let straddles =
             |way: Vector3<f64>| (inside(point) || inside(point - allowed * way)) && !inside(point + allowed * way);
@@ -295,8 +295,8 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
     let (at_a, at_b) = (carry(&case.at_a), carry(&case.at_b));
     match (scene.solver)(scene.a, &at_a, scene.b, &at_b, &FULL, None) {
         Ok(after) => {
-            // The rounding of a turn moves a point in proportion to its distance from the centres, which can be any length where a body has no plane on
-            // one side.
+            // The rounding of a turn moves a point in proportion to its distance from the centres, which can be any
+            // length where a body has no plane on one side.
             let branches = [before.branch_a, before.branch_b, after.branch_a, after.branch_b];
             let lever = branches.iter().map(|branch| branch.norm()).fold(scene.length, f64::max);
             let rounding = 16.0 * EPS * (lever + scene.far);
@@ -307,7 +307,8 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
             // Where s vanishes its square is what moves smoothly.
             let squares = (before.s * before.s - after.s * after.s).abs();
             let right = (before.s - after.s).abs() <= allowed || squares <= allowed * allowed;
-            // The poses are rounded anew. Where that does more to s than the first order, each answer has to be that of its own poses.
+            // The poses are rounded anew. Where that does more to s than the first order, each answer has to be that of
+            // its own poses.
             let right = right || {
                 let place = |pose: &Pose| (*pose.position()).into();
                 let [of_a, of_b] = [(scene.a, &at_a), (scene.b, &at_b)]
@@ -323,9 +324,10 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
     }
 }
 
-/// By how much s changes when B is moved along the normal, both ways, by this length; 0 where it is not found. With a radius
-/// near the rounding of a position, a plane carries the contact by less than doubles can tell of a point, and 32 digits do
-/// not settle the pair: no gradient at the point shows then how steep s is, while the change of s itself does.
+/// By how much s changes when B is moved along the normal, both ways, by this length; 0 where it is not found. With a
+/// radius near the rounding of a position, a plane carries the contact by less than doubles can tell of a point, and 32
+/// digits do not settle the pair: no gradient at the point shows then how steep s is, while the change of s itself
+/// does.
 fn moved_along_normal(scene: &Scene, before: &Contact, length: f64) -> f64 {
     let s_at = |way: f64| {
         let position = scene.at_b.position() + way * before.normal;

@@ -110,11 +110,12 @@ fn precise(verdict: &mut Verdict, scene: &Scene, truth: &Optimum) {
     });
 }
 
-/// What rounding does to s² where that is not of first order: from solving again with all planes moved in by the rounding of a
-/// length, and with B turned either way by that of a direction.
+/// What rounding does to s² where that is not of first order: from solving again with all planes moved in by the
+/// rounding of a length, and with B turned either way by that of a direction.
 ///
-/// At the tip of a wedge both sides push, and moved in by a tenth of r they leave no room in which to push so; faces that lie
-/// on each other and are tilted by rounding leave a force along them that a plane at the edge may be too weak to hold.
+/// At the tip of a wedge both sides push, and moved in by a tenth of r they leave no room in which to push so; faces
+/// that lie on each other and are tilted by rounding leave a force along them that a plane at the edge may be too weak
+/// to hold.
 fn shaken(scene: &Scene, contact: &Contact, truth: &Optimum) -> f64 {
     let [a, b] = scene.bodies();
     let (start, lambda) = (truth.x.f64(), truth.lambda.f64());
@@ -145,12 +146,12 @@ fn is_settled(truth: &Optimum, gap: f64) -> bool {
     truth.most - truth.least <= 0.1 * gap + f64::MIN_POSITIVE
 }
 
-/// Units in the last place by which the direction of a normal is off that is turned by the product of two rotations, each made from a
-/// quaternion.
+/// Units in the last place by which the direction of a normal is off that is turned by the product of two rotations,
+/// each made from a quaternion.
 const TURNED: f64 = 4.0;
 
-/// The least that rounding lengths of this size does to s², the tolerance asked for, and what the regularisation of flat
-/// faces adds. `scale` is s or 1; both S rise by `risen` when the planes move in by the rounding of a length.
+/// The least that rounding lengths of this size does to s², the tolerance asked for, and what the regularisation of
+/// flat faces adds. `scale` is s or 1; both S rise by `risen` when the planes move in by the rounding of a length.
 pub(super) fn explained(scene: &Scene, scale: f64, weight: f64, [a, b]: [f64; 2]) -> f64 {
     let missing = |p: &Particle| (FULL.flat_regularisation - p.sphericity()).max(0.0);
     let flat = 2.0 * (missing(scene.a) + missing(scene.b));

@@ -22,16 +22,17 @@ Then these classes stand beside YADE's own:
                                  boxes for verletDist > 0
 
 potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
-pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and funnels.
+pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and
+funnels.
 
-Before they are registered, the classes of the YADE that runs are compared with what the plugin was compiled for. One that
-differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits
-and was never tested is taken, with a warning of one line.
+Before they are registered, the classes of the YADE that runs are compared with what the plugin was compiled for. One
+that differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits and was
+never tested is taken, with a warning of one line.
 
 Of YADE's own classes the import replaces four functions, which do as before: O.run and O.step look our functors up
 (prepare) and warn of what check() finds, for which Body.shape notices a change, and O.load says what to do about a
-scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by our
-functor (window). protect_runs() replaces more, for those who ask for it.
+scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by
+our functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
@@ -44,7 +45,8 @@ from .bodies import body
 from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
 from .lammps import to_lammps
-from .measures import body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity, solid_volume, stress
+from .measures import (body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity,
+                       solid_volume, stress)
 from .outside import protect_runs
 from .packing import add_packing, pack
 from .saves import save
@@ -53,9 +55,12 @@ from .time_step import critical_time_step, time_stepper
 
 __version__ = "0.2.0"
 
-__all__ = ["AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses", "bond_contacts", "check", "clump", "coordination_number",
-           "critical_time_step", "extrema", "fabric_tensor", "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity",
-           "prepare", "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"]
+__all__ = [
+    "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
+    "bond_contacts", "check", "clump", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
+    "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity", "prepare", "protect_runs",
+    "sampled_porosity", "save", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"
+]
 
 
 class AbiError(ImportError):
@@ -65,8 +70,8 @@ class AbiError(ImportError):
         self.differences = list(differences)
         super().__init__(
             "potential_particles was built for YADE %s and does not fit this one, %s with Python %s (`make build` builds "
-            "it for the YADE that is installed, if it can be):\n  %s"
-            % (built_for, running, builds.python_version(), "\n  ".join(self.differences)))
+            "it for the YADE that is installed, if it can be):\n  %s" %
+            (built_for, running, builds.python_version(), "\n  ".join(self.differences)))
 
 
 def _import_yade():
@@ -76,8 +81,7 @@ def _import_yade():
     except ImportError as error:
         raise ImportError(
             "potential_particles needs YADE (Debian package yade): run `yade script.py`, or add the folder of YADE's Python "
-            "package, as in /usr/bin/yade, to sys.path first. "
-            + str(error)) from error
+            "package, as in /usr/bin/yade, to sys.path first. " + str(error)) from error
     import yade.config
     return yade, str(getattr(yade.config, "version", "unknown"))
 
@@ -92,11 +96,13 @@ def _import_glue(running):
         elif "libpotential_particles" in reason:
             remedy = "build the library with `cargo build --release`, in the place that the plugin was linked to"
         elif "undefined symbol" in reason:
-            remedy = ("the YADE that runs, %s with Python %s, lacks a function that the plugin calls: build the plugin again "
-                      "with `make build`, which lists the differences" % (running, builds.python_version()))
+            remedy = (
+                "the YADE that runs, %s with Python %s, lacks a function that the plugin calls: build the plugin again "
+                "with `make build`, which lists the differences" % (running, builds.python_version()))
         elif "libboost_" in reason or "libpython" in reason:
-            remedy = ("the plugin was built for another Python or Boost than those of YADE %s with Python %s: build it again with "
-                      "`make build`" % (running, builds.python_version()))
+            remedy = (
+                "the plugin was built for another Python or Boost than those of YADE %s with Python %s: build it again with "
+                "`make build`" % (running, builds.python_version()))
         else:
             remedy = "build the plugin with `cmake -S yade-glue -B yade-glue/build && cmake --build yade-glue/build`"
         raise ImportError("potential_particles cannot load its plugin: %s (%s)" % (reason, remedy)) from error
@@ -137,7 +143,9 @@ def _dispatchers(yade):
     kinds = (yade.wrapper.BoundDispatcher, yade.wrapper.IGeomDispatcher, yade.wrapper.IPhysDispatcher)
     found = [], [], []
     for engine in yade.wrapper.Omega().engines:
-        holders = [engine] + [getattr(engine, name, None) for name in ("boundDispatcher", "geomDispatcher", "physDispatcher")]
+        holders = [engine] + [
+            getattr(engine, name, None) for name in ("boundDispatcher", "geomDispatcher", "physDispatcher")
+        ]
         for kind, group in zip(kinds, found):
             group.extend(holder for holder in holders if isinstance(holder, kind))
     return found
@@ -180,8 +188,9 @@ def _look_up(single, double, arguments):
 def _prepare_ours(yade):
     """prepare() for our shapes alone, which takes the same few microseconds in a scene of any size.
 
-    YADE's classes of shapes derive from each other, as Cylinder from Sphere: the derived one first. Once the functor of the base is entered
-    for our shape, YADE calls that entry and the one of the derived class with our shape's base equally near, and raises.
+    YADE's classes of shapes derive from each other, as Cylinder from Sphere: the derived one first. Once the functor of
+    the base is entered for our shape, YADE calls that entry and the one of the derived class with our shape's base
+    equally near, and raises.
     """
     bounds, geometry, _ = _dispatchers(yade)
     ours = [yade.wrapper.ConicPotentialParticle(), yade.wrapper.PotentialParticle()]
@@ -226,7 +235,9 @@ def library_version():
 
 
 def _take_numpy_names():
-    """The names of the package of the same name for numpy arrays (docs/wheel.md), whose objects they are; False where it is not installed beside this one."""
+    """The names of the package of the same name for numpy arrays (docs/wheel.md), whose objects they are; False where
+    it is not installed beside this one.
+    """
     global __path__
     __path__ = pkgutil.extend_path(__path__, __name__)
     if importlib.util.find_spec("._api", __name__) is None:

@@ -4,7 +4,8 @@ import math
 
 import numpy as np
 
-# Of what a script gives. Fifth powers of lengths, as moments of inertia are, and what is made of a few of them, are doubles with all their digits.
+# Of what a script gives. Fifth powers of lengths, as moments of inertia are, and what is made of a few of them, are
+# doubles with all their digits.
 LEAST, MOST = 1e-50, 1e50
 # Of what is made one by one in Python: more takes minutes or all memory, and is taken for a mistake.
 MANY = 1_000_000
@@ -75,12 +76,15 @@ def vector(value, name):
 
 
 def bearable(points, name, note=""):
-    """Points (n, 3) as they are, if each of their numbers is finite and bearable, or ValueError that says which is not."""
+    """Points (n, 3) as they are, if each of their numbers is finite and bearable, or ValueError that says which is not.
+    """
     fine = (np.abs(points) <= MOST).all(1)
     if not fine.all():
         first = int(np.argmin(fine))
         found = ", ".join(f"{one:g}" for one in points[first])
-        raise ValueError(f"{name}{f' {first}' if len(points) > 1 else ''}=({found}){note}: each number must lie between {-MOST:g} and {MOST:g}")
+        raise ValueError(
+            f"{name}{f' {first}' if len(points) > 1 else ''}=({found}){note}: each number must lie between {-MOST:g} and {MOST:g}"
+        )
     return points
 
 

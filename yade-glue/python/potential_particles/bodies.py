@@ -3,14 +3,15 @@
 from .arguments import number, unit_quaternion, vector
 
 
-def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), fixed=False, color=None, mask=None,
-         velocity=None, angular_velocity=None, **attributes):
+def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), fixed=False, color=None,
+         mask=None, velocity=None, angular_velocity=None, **attributes):
     """A yade Body of a Shape, with mass, inertia and box, ready for O.bodies.append.
 
-    material: a Material, the number or label of one in O.materials, or None for the last one there. position (length) and
-    orientation (a Quaternion, or w, x, y, z) place the frame in which the shape was built: for a shape about its centroid, as sphere(), cuboid() or
-    platonic_solid() make them, that is the centre; one from a file stands as in the file, for the default values. The state of the
-    body is that of its centroid and principal axes. velocity (of the centroid) and angular_velocity: world frame.
+    material: a Material, the number or label of one in O.materials, or None for the last one there. position (length)
+    and orientation (a Quaternion, or w, x, y, z) place the frame in which the shape was built: for a shape about its
+    centroid, as sphere(), cuboid() or platonic_solid() make them, that is the centre; one from a file stands as in the
+    file, for the default values. The state of the body is that of its centroid and principal axes. velocity (of the
+    centroid) and angular_velocity: world frame.
     fixed: no force moves it. attributes: further ones of ConicPotentialParticle (isBoundary, wire, ...).
     ValueError for what makes no body; the scene is never touched.
     """
@@ -19,7 +20,8 @@ def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 
     if not isinstance(shape, Shape):
         raise ValueError(f"shape is {type(shape).__name__}, not a Shape: make one by potential_particles.shapes")
     material = _material(material)
-    to_frame, from_principal = _quaternion(orientation, "orientation"), _quaternion(shape.orientation, "shape.orientation")
+    to_frame, from_principal = _quaternion(orientation, "orientation"), _quaternion(shape.orientation,
+                                                                                    "shape.orientation")
     place = yade.Vector3(*vector(position, "position")) + to_frame * yade.Vector3(*shape.centroid)
     if color is not None:
         attributes["color"] = yade.Vector3(*vector(color, "color"))
@@ -68,7 +70,8 @@ def _material(material):
         try:
             material = known[material]
         except (IndexError, KeyError, TypeError, RuntimeError) as error:
-            raise ValueError(f"material={material!r} is neither a Material nor the number or label of one in O.materials") from error
+            raise ValueError(
+                f"material={material!r} is neither a Material nor the number or label of one in O.materials") from error
     if not number(material.density, "density") > 0.0:
         raise ValueError(f"density={material.density:g} of the material must be above 0")
     return material

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Boundaries as meshes of YADE's Facets: a box, a funnel, a plate. Each function returns bodies for O.bodies.append.
 
-Facets are fixed, and their normals point to where the bodies are. `facets` is the least number of them: a surface is cut into
-quadrilaterals of about equal edges, in the same way on both sides of an edge, and each of these into two triangles.
-Facets meet potential particles where the scene has a functor for the two.
+Facets are fixed, and their normals point to where the bodies are. `facets` is the least number of them: a surface is
+cut into quadrilaterals of about equal edges, in the same way on both sides of an edge, and each of these into two
+triangles. Facets meet potential particles where the scene has a functor for the two.
 """
 import math
 import typing
@@ -37,15 +37,16 @@ def plate(corner, along, across, material=None, facets=2, **more):
     """A parallelogram from a corner along two edges; its normal points along `along` x `across`."""
     corner, along, across = vector(corner, "corner"), vector(along, "along"), vector(across, "across")
     if not np.linalg.norm(np.cross(along, across)) > 1e-12 * np.linalg.norm(along) * np.linalg.norm(across):
-        raise ValueError(f"along={tuple(along)} and across={tuple(across)} span no plate: give two edges that are not parallel")
+        raise ValueError(
+            f"along={tuple(along)} and across={tuple(across)} span no plate: give two edges that are not parallel")
     return _meshed([[corner, corner + along, corner + along + across, corner + across]], facets, material, more)
 
 
 def funnel(outlet, mouth, height, position=(0.0, 0.0, 0.0), material=None, sides=32, facets=2, **more):
     """The wall of a funnel whose outlet lies about `position`, and its mouth `height` above.
 
-    outlet, mouth: the radii of a cone, made of `sides` plane pieces whose edges lie on it; or the widths (x, y) of a wedge.
-    An outlet of 0, or one of its widths, closes it. For an open cylinder or shaft give both alike.
+    outlet, mouth: the radii of a cone, made of `sides` plane pieces whose edges lie on it; or the widths (x, y) of a
+    wedge. An outlet of 0, or one of its widths, closes it. For an open cylinder or shaft give both alike.
     """
     position, height = vector(position, "position"), positive(height, "height")
     lower, upper = _outline(outlet, sides, "outlet", closed=True), _outline(mouth, sides, "mouth")
@@ -88,12 +89,16 @@ def _meshed(quads, facets, material, more) -> typing.List:
 
 
 def _triangles(quads, length):
-    """Triangles of quadrilaterals (p, q, r, s) whose edges are cut into pieces of at most this length; none without area."""
+    """Triangles of quadrilaterals (p, q, r, s) whose edges are cut into pieces of at most this length; none without
+    area.
+    """
     found = []
     pieces = [(_pieces(length, q - p, r - s), _pieces(length, s - p, r - q)) for p, q, r, s in quads]
     needed = sum(2 * n * m for n, m in pieces)
     if needed > 4 * MANY:
-        raise ValueError(f"the surface is so long and narrow that {needed:.3g} facets of equal edges are needed, and no more than {4 * MANY} are made: give fewer facets, or cut it up")
+        raise ValueError(
+            f"the surface is so long and narrow that {needed:.3g} facets of equal edges are needed, and no more than {4 * MANY} are made: give fewer facets, or cut it up"
+        )
     for (p, q, r, s), (n, m) in zip(quads, pieces):
         grid = [[(1 - v) * ((1 - u) * p + u * q) + v * ((1 - u) * s + u * r) for v in np.linspace(0, 1, m + 1)]
                 for u in np.linspace(0, 1, n + 1)]

@@ -35,8 +35,9 @@ def remark(running, built_for, tested):
         return ("the plugin was built for YADE %s and this is %s: it fits as far as can be seen from here; "
                 "`make build` compares the two in full" % (built_for, name))
     if not any((build.yade, build.python) == (running, python_version()) for build in tested):
-        return ("%s is not among the tested builds (%s); the plugin fits it as far as the comparisons at build and at import go"
-                % (name, ", ".join("%s of Debian %s" % (build.yade, build.debian) for build in tested)))
+        return (
+            "%s is not among the tested builds (%s); the plugin fits it as far as the comparisons at build and at import go"
+            % (name, ", ".join("%s of Debian %s" % (build.yade, build.debian) for build in tested)))
     return None
 
 

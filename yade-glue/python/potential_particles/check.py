@@ -15,15 +15,19 @@ from .measures import largest_overlap
 from .shape import definition, volumes
 
 # Lever arms of spheres: for bodies of any other shape the torque is wrong.
-_SPHERES_ONLY = {"Law2_ScGeom_MindlinPhys_HertzWithLinearShear": "Law2_ScGeom_MindlinPhys_Mindlin",
-                 "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz": "Law2_ScGeom_MindlinPhys_Mindlin",
-                 "Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM": "ConicJointMat with its physics and law, which has bonds"}
+_SPHERES_ONLY = {
+    "Law2_ScGeom_MindlinPhys_HertzWithLinearShear": "Law2_ScGeom_MindlinPhys_Mindlin",
+    "Law2_ScGeom_MindlinPhys_MindlinDeresiewitz": "Law2_ScGeom_MindlinPhys_Mindlin",
+    "Law2_ScGeom_JCFpmPhys_JointedCohesiveFrictionalPM": "ConicJointMat with its physics and law, which has bonds"
+}
 # Right in a box, wrong where a pair lies across a border of the cell.
 _NOT_PERIODIC = ("Law2_ScGeom_MindlinPhys_Mindlin", "Law2_SCG_KnKsPhys_KnKsLaw")
 _PERIODIC = "Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)"
-# Relative; masses of bodies made by hand are rarely better, and moments of inertia that agree as well integrate as those of a sphere.
+# Relative; masses of bodies made by hand are rarely better, and moments of inertia that agree as well integrate as
+# those of a sphere.
 _MASS_TOLERANCE = _INERTIA_TOLERANCE = 0.01
-# Shapes made by hand whose volume, and clumps whose union is measured before the first step, at 10 ms each; check() measures all.
+# Shapes made by hand whose volume, and clumps whose union is measured before the first step, at 10 ms each; check()
+# measures all.
 _MEASURED_AT_FIRST = 50
 
 
@@ -42,13 +46,16 @@ class Finding(NamedTuple):
 
 
 def check():
-    """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what, remedy).
+    """Looks for mistakes of which YADE says nothing; prints a line for each, and returns them as a list of (what,
+    remedy).
 
-    Shapes without a box or without a contact functor; prescribed normals (fixedNormal) beside patches; boxes without thickness;
-    compaction by growing spheres; friction angles that are no radians in [0, pi/2); laws with the lever arms of spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that knows no contact yet;
-    masses that are not volume times density (1 %); clumps that are not the union of their members; weights
-    that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty where none is found, and in
-    scenes without potential particles. Call it when bodies, engines and O.dt are set, and again after some steps, when there are contacts.
+    Shapes without a box or without a contact functor; prescribed normals (fixedNormal) beside patches; boxes without
+    thickness; compaction by growing spheres; friction angles that are no radians in [0, pi/2); laws with the lever arms
+    of spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that
+    knows no contact yet; masses that are not volume times density (1 %); clumps that are not the union of their
+    members; weights that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty
+    where none is found, and in scenes without potential particles. Call it when bodies, engines and O.dt are set, and
+    again after some steps, when there are contacts.
     """
     import yade
     from . import _prepare_ours
@@ -76,8 +83,10 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
 
 
 class Watch:
-    """Warns of what check() finds, of each thing once in a scene: before it is stepped first, when it has its first contacts, and when its
-    bodies or engines have become others; once more after a body has got another shape, whose mass YADE leaves as it was."""
+    """Warns of what check() finds, of each thing once in a scene: before it is stepped first, when it has its first
+    contacts, and when its bodies or engines have become others; once more after a body has got another shape, whose
+    mass YADE leaves as it was.
+    """
 
     def __init__(self):
         self.seen, self.told = None, set()
@@ -120,8 +129,10 @@ def notice_shapes(yade, watch):
     for name in ("planes", "r", "k", "R"):
         given = getattr(conic, name)
         setattr(conic, name, property(given.fget, noticing(given.fset, lambda *_: True), doc=given.__doc__))
-    conic.updateAttrs = noticing(conic.updateAttrs, lambda _, attributes: not {"planes", "r", "k", "R"}.isdisjoint(attributes))
-    body.shape = property(body.shape.fget, noticing(body.shape.fset, lambda owner, _: owner.id >= 0), doc=body.shape.__doc__)
+    conic.updateAttrs = noticing(conic.updateAttrs,
+                                 lambda _, attributes: not {"planes", "r", "k", "R"}.isdisjoint(attributes))
+    body.shape = property(body.shape.fget, noticing(body.shape.fset, lambda owner, _: owner.id >= 0),
+                          doc=body.shape.__doc__)
 
 
 def _bodies(ids):
@@ -139,19 +150,26 @@ def _bounds(scene, dispatchers):
     for group in unserved.groups(scene.bodies):
         known = isinstance(group.shape, yade.PotentialParticle) or group.name in unserved.REMEDIES
         if known and not any(dispatcher.dispFunctor(group.shape) for dispatcher in dispatchers):
-            name = "PotentialParticle2AABB" if isinstance(group.shape, yade.PotentialParticle) else f"Bo1_{group.name}_Aabb"
-            yield Finding(f"the collider makes no boxes for {group.name} ({group.count}), so that these bodies touch nothing",
-                          f"add {name}() to the collider")
+            name = "PotentialParticle2AABB" if isinstance(group.shape,
+                                                          yade.PotentialParticle) else f"Bo1_{group.name}_Aabb"
+            yield Finding(
+                f"the collider makes no boxes for {group.name} ({group.count}), so that these bodies touch nothing",
+                f"add {name}() to the collider")
 
 
 def _contacts(scene, dispatchers):
     for pair, remedy in unserved.pairs(scene.bodies, dispatchers):
         yield Finding(f"bodies pass through each other because the contact loop has no functor for {pair}", remedy)
-    fixed = [body for body in scene.bodies if getattr(body.shape, "fixedNormal", False) and body.shape.boundaryNormal.norm() > 0.0]
+    fixed = [
+        body for body in scene.bodies
+        if getattr(body.shape, "fixedNormal", False) and body.shape.boundaryNormal.norm() > 0.0
+    ]
     for functor in [one.dispFunctor(fixed[0].shape, fixed[0].shape) for one in dispatchers] if fixed else ():
         if getattr(functor, "patch", False):
-            yield Finding(f"{_bodies([body.id for body in fixed])}: fixedNormal=True, and no contact by {type(functor).__name__}(patch=True), "
-                          "as a patch has the normal of its pressure", "give the shape fixedNormal=False, or the functor patch=False")
+            yield Finding(
+                f"{_bodies([body.id for body in fixed])}: fixedNormal=True, and no contact by {type(functor).__name__}(patch=True), "
+                "as a patch has the normal of its pressure",
+                "give the shape fixedNormal=False, or the functor patch=False")
 
 
 def _flat_boxes(yade, scene):
@@ -163,13 +181,15 @@ def _flat_boxes(yade, scene):
 
 def _controllers(scene):
     if any(one.internalCompaction for one in _engines(scene, "TriaxialStressController")):
-        yield Finding("TriaxialStressController(internalCompaction=True) lets spheres grow, and does nothing here", "give it internalCompaction=False")
+        yield Finding("TriaxialStressController(internalCompaction=True) lets spheres grow, and does nothing here",
+                      "give it internalCompaction=False")
 
 
 def _angles(yade, ours):
     for material in {body.mat.id: body.mat for body in ours if isinstance(body.mat, yade.FrictMat)}.values():
         if not is_friction_angle(material.frictionAngle):
-            yield Finding(f"material {material.id} in O.materials has frictionAngle={material.frictionAngle:g}", "give radians in [0, pi/2)")
+            yield Finding(f"material {material.id} in O.materials has frictionAngle={material.frictionAngle:g}",
+                          "give radians in [0, pi/2)")
 
 
 def _laws(scene, ours, dispatchers):
@@ -179,22 +199,31 @@ def _laws(scene, ours, dispatchers):
     others = list({type(body.mat): body.mat for body in scene.bodies if body.mat}.values())
     made = {type(functor).__name__ for dispatcher in dispatchers for one in materials for other in others
             for functor in [dispatcher.dispFunctor(one, other)] if functor}
-    for law in [law for engine in scene.engines for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())]:
+    for law in [
+            law for engine in scene.engines for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())
+    ]:
         name, (geometry, physics) = type(law).__name__, law.bases
-        without = [type(one).__name__ for engine in scene.engines for one in getattr(getattr(engine, "geomDispatcher", None), "functors", ())
-                   if not getattr(one, "rotations", True)]
+        without = [
+            type(one).__name__ for engine in scene.engines
+            for one in getattr(getattr(engine, "geomDispatcher", None), "functors", ())
+            if not getattr(one, "rotations", True)
+        ]
         if geometry == "ScGeom6D" and without:
-            yield Finding(f"{name} asks for a geometry with bending and twist, and passes over contacts of potential particles",
-                          f"give {', '.join(without)} the keyword rotations=True")
-        if geometry != "ScGeom" and name != "Law2_SCG_KnKsPhys_KnKsLaw" or not any(one.endswith("_" + physics) for one in made):
+            yield Finding(
+                f"{name} asks for a geometry with bending and twist, and passes over contacts of potential particles",
+                f"give {', '.join(without)} the keyword rotations=True")
+        if geometry != "ScGeom" and name != "Law2_SCG_KnKsPhys_KnKsLaw" or not any(
+                one.endswith("_" + physics) for one in made):
             continue
         if isinstance(law, yade.Law2_ScGeom_FrictPhys_CundallStrack) and law.sphericalBodies:
-            yield Finding(f"{name} takes the lever arms of spheres, and its torques are wrong", "give it sphericalBodies=False")
+            yield Finding(f"{name} takes the lever arms of spheres, and its torques are wrong",
+                          "give it sphericalBodies=False")
         elif name in _SPHERES_ONLY:
             instead = _PERIODIC if scene.periodic and _SPHERES_ONLY[name] in _NOT_PERIODIC else _SPHERES_ONLY[name]
             yield Finding(f"{name} takes the lever arms of spheres, and its torques are wrong", f"use {instead}")
         elif scene.periodic and name in _NOT_PERIODIC:
-            yield Finding(f"{name} has wrong torques where a pair lies across a border of the periodic cell", f"use {_PERIODIC}")
+            yield Finding(f"{name} has wrong torques where a pair lies across a border of the periodic cell",
+                          f"use {_PERIODIC}")
 
 
 def _overlap():
@@ -212,12 +241,14 @@ def _time_step(scene):
     steppers = [one for one in _engines(scene, "GlobalStiffnessTimeStepper") if one.active]
     ours = any("time_step.follow" in one.command for one in _engines(scene, "PyRunner"))
     if not steppers and not ours and scene.dt > limit:
-        yield Finding(f"O.dt={scene.dt:.3g} s is beyond {limit:.3g} s, up to which contacts are known to act as springs",
-                      "O.dt = potential_particles.critical_time_step(), or the engine potential_particles.time_stepper()")
+        yield Finding(
+            f"O.dt={scene.dt:.3g} s is beyond {limit:.3g} s, up to which contacts are known to act as springs",
+            "O.dt = potential_particles.critical_time_step(), or the engine potential_particles.time_stepper()")
     for stepper in steppers:
         if not 0.0 < stepper.defaultDt <= limit and not any(contact.isReal for contact in scene.interactions):
-            yield Finding("GlobalStiffnessTimeStepper takes a step of about 1 s as long as there is no contact",
-                          "use potential_particles.time_stepper(), or give it defaultDt=potential_particles.critical_time_step()")
+            yield Finding(
+                "GlobalStiffnessTimeStepper takes a step of about 1 s as long as there is no contact",
+                "use potential_particles.time_stepper(), or give it defaultDt=potential_particles.critical_time_step()")
 
 
 def _mass(yade, moving, measured):
@@ -257,8 +288,9 @@ def _clumps(scene, measured):
             wrong.append((body, mass))
     if wrong:
         body, mass = wrong[0]
-        yield Finding(f"{_bodies([one.id for one, _ in wrong])}: mass or inertia are not those of the union of the clump's members (body {body.id}: "
-                      f"{body.state.mass:.4g}, and {mass:.4g} where overlaps count once)", "make it by potential_particles.clump")
+        yield Finding(
+            f"{_bodies([one.id for one, _ in wrong])}: mass or inertia are not those of the union of the clump's members (body {body.id}: "
+            f"{body.state.mass:.4g}, and {mass:.4g} where overlaps count once)", "make it by potential_particles.clump")
 
 
 def _weight(scene, moving):
@@ -266,21 +298,27 @@ def _weight(scene, moving):
     try:
         stiffness = time_step.stiffness_rule(scene)
         # Force of the weight, and of an overlap r.
-        weights = {body.id: (body.state.mass * gravity, stiffness(body, time_step.bounding_radius(body)) * body.shape.r) for body in moving}
+        weights = {
+            body.id: (body.state.mass * gravity, stiffness(body, time_step.bounding_radius(body)) * body.shape.r)
+            for body in moving
+        }
     except ValueError:
         return
     deep = [one for one, (weight, most) in weights.items() if weight > most > 0.0]
     if deep:
         weight, most = weights[deep[0]]
-        yield Finding(f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {weight / most:.3g} r)",
-                      "raise the stiffness, or check the units of lengths and of density")
+        yield Finding(
+            f"{_bodies(deep)}: the weight alone makes overlaps beyond the rounding radius r (body {deep[0]}: {weight / most:.3g} r)",
+            "raise the stiffness, or check the units of lengths and of density")
 
 
 def _rotation(scene, moving):
     turning = [body for body in moving if not set("XYZ") <= set(body.state.blockedDOFs) and not body.isClumpMember
                and max(body.state.inertia) > (1.0 + _INERTIA_TOLERANCE) * min(body.state.inertia)]
     if turning and any(not one.exactAsphericalRot for one in _engines(scene, "NewtonIntegrator")):
-        yield Finding("NewtonIntegrator turns bodies as if their moments of inertia were equal", "give it exactAsphericalRot=True")
+        yield Finding("NewtonIntegrator turns bodies as if their moments of inertia were equal",
+                      "give it exactAsphericalRot=True")
     spheres = [body.id for body in turning if not body.aspherical]
     if spheres:
-        yield Finding(f"{_bodies(spheres)}: turned as if the moments of inertia were equal", "set aspherical=True of the body")
+        yield Finding(f"{_bodies(spheres)}: turned as if the moments of inertia were equal",
+                      "set aspherical=True of the body")

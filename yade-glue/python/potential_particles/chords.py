@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Where straight lines lie within bodies: chords, by which porosity and unions of bodies are measured.
 
-On a line the function S of a particle (S <= 1 inside) is convex and piecewise quadratic. Newton's method that starts outside therefore comes to the
-nearest end of the chord from one side, and where the slope changes its sign before, the line misses the particle. Chords are exact to rounding; what is
-estimated is the integral across the lines, by grids of lines that are shifted at random against each other.
+On a line the function S of a particle (S <= 1 inside) is convex and piecewise quadratic. Newton's method that starts
+outside therefore comes to the nearest end of the chord from one side, and where the slope changes its sign before, the
+line misses the particle. Chords are exact to rounding; what is estimated is the integral across the lines, by grids of
+lines that are shifted at random against each other.
 """
 import math
 
@@ -11,7 +12,8 @@ import numpy as np
 
 from .arguments import LARGE, MANY, whole
 
-# Grids that are shifted against each other, whose scatter is the error; 95 % of Student's distribution with one degree less.
+# Grids that are shifted against each other, whose scatter is the error; 95 % of Student's distribution with one degree
+# less.
 GRIDS, _STUDENT = 8, 2.36
 _NEWTON_STEPS, _CONVERGED = 60, 1e-13
 
@@ -19,7 +21,8 @@ _NEWTON_STEPS, _CONVERGED = 60, 1e-13
 def chords(shape, points, direction, radius):
     """Begin and end (n,) of the chord of each line points + t direction, as t; nan where a line misses.
 
-    shape: a PotentialParticle or Sphere. points: (n, 3), direction: (3,) of any length, both in the frame of the body. radius: within which the body lies.
+    shape: a PotentialParticle or Sphere. points: (n, 3), direction: (3,) of any length, both in the frame of the body.
+        radius: within which the body lies.
     """
     import yade
     length = np.linalg.norm(direction)
@@ -44,7 +47,8 @@ def _first_root(shape, points, along, start):
     """The least t with S(points + t along) = 1, from t = start where S >= 1; nan where there is none."""
     normals = np.array([shape.a, shape.b, shape.c], float).T
     # Of a ball, k = 1, r has no meaning.
-    offsets, weight, round_weight = np.array(shape.d, float), (1.0 - shape.k) / shape.r**2 if shape.k < 1.0 else 0.0, shape.k / shape.R**2
+    offsets, weight, round_weight = np.array(
+        shape.d, float), (1.0 - shape.k) / shape.r**2 if shape.k < 1.0 else 0.0, shape.k / shape.R**2
     # Distances beyond the planes are c + t s.
     distances, slopes = points @ normals.T - offsets, normals @ along
     constant, linear = (points**2).sum(1), points @ along
@@ -63,7 +67,9 @@ def _first_root(shape, points, along, start):
 
 
 def united(lines, begins, ends):
-    """(line, begin, end), each (n,): the disjoint intervals of intervals on the lines of these numbers, in any order, that may overlap."""
+    """(line, begin, end), each (n,): the disjoint intervals of intervals on the lines of these numbers, in any order,
+    that may overlap.
+    """
     if not len(begins):
         return lines, begins, ends
     # Each line has a stretch of its own, so that all are united at once.
@@ -88,7 +94,9 @@ def scatter(values):
 
 
 def grids(lines, seed):
-    """(places (GRIDS n, 2) in the unit square of about `lines` lines, n): GRIDS lattices of n points, one after the other, shifted at random by `seed`."""
+    """(places (GRIDS n, 2) in the unit square of about `lines` lines, n): GRIDS lattices of n points, one after the
+    other, shifted at random by `seed`.
+    """
     side = max(2, round(math.sqrt(whole(lines, 1, 10 * MANY, "lines") / GRIDS)))
     random = np.random.default_rng(whole(seed, 0, LARGE, "seed"))
     return np.concatenate([_grid(side, random) for _ in range(GRIDS)]), side**2

@@ -1,8 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Clumps of bodies that overlap: mass and inertia of their union.
 
-O.bodies.clump() adds up the members, and counts twice where they overlap. Here the moments of the members, which are known, are added up and what
-overlaps is taken off: the moments of chords less those of their union, along parallel lines. Where nothing overlaps the sum is that of YADE.
+O.bodies.clump() adds up the members, and counts twice where they overlap. Here the moments of the members, which are
+known, are added up and what
+overlaps is taken off: the moments of chords less those of their union, along parallel lines. Where nothing overlaps the
+    sum is that of YADE.
 """
 import numpy as np
 
@@ -13,18 +15,20 @@ _DIRECTION = (0.4123, 0.6181, 0.6692)  # of the lines: along no face of a body w
 
 
 def clump(bodies, lines=20_000, seed=0):
-    """Makes a clump of bodies, given by their ids, with the mass and inertia of their union; returns the id of the clump.
+    """Makes a clump of bodies, given by their ids, with the mass and inertia of their union; returns the id of the
+    clump.
 
-    Members keep their place; potential particles and spheres of one density. Overlaps are measured along about `lines` lines in grids that are shifted
-    at random by `seed`: of cubes that share a quarter, to 1e-4 of the mass. ValueError for bodies that make no clump.
+    Members keep their place; potential particles and spheres of one density. Overlaps are measured along about `lines`
+    lines in grids that are shifted at random by `seed`: of cubes that share a quarter, to 1e-4 of the mass. ValueError
+    for bodies that make no clump.
     """
     import yade
     members = [yade.O.bodies[int(one)] for one in bodies]
     mass, centre, inertia, _ = union(members, lines, seed)
     moments, axes = np.linalg.eigh(inertia)
     axes[:, 2] *= np.sign(np.linalg.det(axes))
-    # YADE finds place and axes of a clump from its members, once: here from one that has the mass of all, and goes again. It turns the
-    # inertia of a member the other way round, which is why this one stands so.
+    # YADE finds place and axes of a clump from its members, once: here from one that has the mass of all, and goes
+    # again. It turns the inertia of a member the other way round, which is why this one stands so.
     whole_body = yade.Body()
     whole_body.shape, whole_body.mat = yade.Shape(), members[0].mat
     whole_body.state.pos, whole_body.state.ori = yade.Vector3(*centre), _quaternion(axes.T)
@@ -42,7 +46,8 @@ def clump(bodies, lines=20_000, seed=0):
 
 
 def add_clump(parts, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), **more):
-    """Appends bodies of shapes.clump_from_mesh (or of any Shapes that stand in one frame) and makes a clump of them; returns its id.
+    """Appends bodies of shapes.clump_from_mesh (or of any Shapes that stand in one frame) and makes a clump of them;
+    returns its id.
 
     position, orientation: of the frame of the file, as for body(), to which `more` goes (color, mask, ...).
     """
@@ -54,17 +59,22 @@ def add_clump(parts, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 
 
 
 def union(members, lines=20_000, seed=0):
-    """(mass, centre of mass (3,), inertia about it (3, 3), error of the mass over it) of the union of bodies of one density, world axes."""
+    """(mass, centre of mass (3,), inertia about it (3, 3), error of the mass over it) of the union of bodies of one
+    density, world axes.
+    """
     import yade
     if len(members) < 2:
         raise ValueError("a clump has two members or more")
     for one in members:
         if one is None or not isinstance(one.shape, (yade.PotentialParticle, yade.Sphere)) or not one.state.mass > 0.0:
-            raise ValueError(f"body {None if one is None else one.id}: members are potential particles and spheres with a mass")
+            raise ValueError(
+                f"body {None if one is None else one.id}: members are potential particles and spheres with a mass")
         if one.mat is None or one.mat.density != members[0].mat.density:
-            raise ValueError("the members differ in density, and what the overlap weighs is not known: give them one density")
+            raise ValueError(
+                "the members differ in density, and what the overlap weighs is not known: give them one density")
     origin = np.mean([list(one.state.pos) for one in members], axis=0)
-    excess, scattered = chords.scatter([members[0].mat.density * one for one in _overlaps(members, origin, lines, seed)])
+    excess, scattered = chords.scatter(
+        [members[0].mat.density * one for one in _overlaps(members, origin, lines, seed)])
     total = _sum_of_members(members, origin) - excess
     mass, first, second = total[0], total[1:4], total[4:].reshape(3, 3)
     centre = first / mass
@@ -113,9 +123,10 @@ def _moments(feet, along, line, begin, end):
     powers = [(end**n - begin**n) / n for n in (1, 2, 3)]
     zeroth, first, second = (np.bincount(line, one, len(feet)) for one in powers)
     mixed = feet[:, :, None] * along
-    products = (zeroth[:, None, None] * feet[:, :, None] * feet[:, None, :] + first[:, None, None] * (mixed + mixed.swapaxes(1, 2))
-                + second[:, None, None] * np.outer(along, along))
-    return np.concatenate([zeroth[:, None], zeroth[:, None] * feet + first[:, None] * along, products.reshape(-1, 9)], axis=1)
+    products = (zeroth[:, None, None] * feet[:, :, None] * feet[:, None, :] + first[:, None, None] *
+                (mixed + mixed.swapaxes(1, 2)) + second[:, None, None] * np.outer(along, along))
+    return np.concatenate([zeroth[:, None], zeroth[:, None] * feet + first[:, None] * along,
+                           products.reshape(-1, 9)], axis=1)
 
 
 def _quaternion(axes):

@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Few planes for a surface of many: scans as particles.
 
-The facets of the convex hull are gathered into N groups of like direction, by Lloyd's method on their normals with their areas as weights (the metric L2,1
-of Cohen-Steiner, Alliez & Desbrun 2004, Variational shape approximation). A plane with the mean direction of each group touches the hull, so that the
-planes lie about it and hold too much; the rounding radius r is chosen so that what it takes away at edges and corners is this surplus, and the particle has
-the volume of the surface. Where that takes r out of its range, all planes move by one distance instead.
+The facets of the convex hull are gathered into N groups of like direction, by Lloyd's method on their normals with
+their areas as weights (the metric L2,1 of Cohen-Steiner, Alliez & Desbrun 2004, Variational shape approximation). A
+plane with the mean direction of each group touches the hull, so that the planes lie about it and hold too much; the
+rounding radius r is chosen so that what it takes away at edges and corners is this surplus, and the particle has the
+volume of the surface. Where that takes r out of its range, all planes move by one distance instead.
 """
 import dataclasses
 import math
@@ -26,7 +27,8 @@ LOST = 0.01
 MOST_FACES = 60
 # Beyond this difference of volume a warning is given.
 WARNED = 0.02
-# Of mass properties, relative, as they bound it: what they are off is below a thousandth of that, and a fit is off by more.
+# Of mass properties, relative, as they bound it: what they are off is below a thousandth of that, and a fit is off by
+# more.
 TOLERANCE = 1e-3
 
 _ROUNDS, _RAYS, _SAMPLES = 15, 600, 2000
@@ -37,9 +39,10 @@ _LADDER = (6, 8, 10, 12, 15, 18, 22, 27, 33, 40, 50, 60, 75, 90, 110, 135, 165, 
 def of_surface(hull, samples, volume, rounding, name, planes=None, error=None):
     """The Shape of a hull, a Polyhedron, with its Fit to samples (m, 3) of the surface and its volume.
 
-    planes: at most so many, or "all" faces of the hull, where they are; error: as few as leave no sample further from the particle than this share of the
-    equivalent diameter; with neither, all faces of a hull of at most MOST_FACES, else so many planes, with a warning that tells the error. rounding: a Rounding;
-    where it does not say how large r is, the volume is kept.
+    planes: at most so many, or "all" faces of the hull, where they are; error: as few as leave no sample further from
+    the particle than this share of the equivalent diameter; with neither, all faces of a hull of at most MOST_FACES,
+    else so many planes, with a warning that tells the error. rounding: a Rounding; where it does not say how large r
+    is, the volume is kept.
     """
     by_default = planes is None and error is None
     if by_default or planes == "all":
@@ -62,17 +65,19 @@ def of_surface(hull, samples, volume, rounding, name, planes=None, error=None):
         closest = min(closest, shape.fit.largest)
         if len(hull.planes) <= number:
             break
-    raise ValueError(f"{name}: error={error:g} is not reached with up to {number} planes, which leave {closest:.2g} of the diameter: "
-                     "allow a larger error or more planes, or cut a surface that is not convex (shapes.clump_from_mesh)")
+    raise ValueError(
+        f"{name}: error={error:g} is not reached with up to {number} planes, which leave {closest:.2g} of the diameter: "
+        "allow a larger error or more planes, or cut a surface that is not convex (shapes.clump_from_mesh)")
 
 
 def warn_of_volume(shape, what):
     """SceneWarning where the volume of a shape is more than 2 % off that of its surface."""
     off = shape.volume / shape.fit.volume - 1.0
     if abs(off) > WARNED:
-        _warn(f"{what}: the shape has {100.0 * abs(off):.2g} % {'more' if off > 0 else 'less'} volume than the surface: "
-              + ("it is not convex; planes=N keeps the volume, shapes.clump_from_mesh the form" if off > 0 else
-                 f"leave r={shape.r:.3g} out, give a smaller one, or planes=N, which keeps the volume"))
+        _warn(
+            f"{what}: the shape has {100.0 * abs(off):.2g} % {'more' if off > 0 else 'less'} volume than the surface: "
+            + ("it is not convex; planes=N keeps the volume, shapes.clump_from_mesh the form" if off >
+               0 else f"leave r={shape.r:.3g} out, give a smaller one, or planes=N, which keeps the volume"))
     return shape
 
 
@@ -92,21 +97,25 @@ def _of_planes(hull, samples, volume, number, rounding, name):
     R = np.linalg.norm(outer.corners - centre, axis=1).max() if shadow is None else shadow
     rays = _sphere(_RAYS)
     # Of this grid of rays the volume is off by less than a thousandth; the hull itself says by how much.
-    wanted = volume * (_reach(hull.normals, hull.offsets - hull.normals @ (middle + centre), rays) ** 3).sum() / hull.volume
+    wanted = volume * (_reach(hull.normals, hull.offsets - hull.normals @ (middle + centre), rays)**
+                       3).sum() / hull.volume
 
     def surplus(share, shift):
-        return (_radii(_lowered(outer.normals, heights + shift, size * share, k, R), size * share, k, R, rays) ** 3).sum() - wanted
+        return (_radii(_lowered(outer.normals, heights + shift, size * share, k, R), size * share, k, R, rays)**
+                3).sum() - wanted
 
     # A shift that would turn the body inside out is beyond any fit.
     least, most = -0.3 * size, 0.3 * size
     share, shift = given / size, 0.0
     if not rounding.is_chosen:
         low, high = surplus(LEAST_R, 0.0), surplus(MOST_R, 0.0)
-        share = LEAST_R if low <= 0.0 else MOST_R if high >= 0.0 else brentq(surplus, LEAST_R, MOST_R, (0.0,), xtol=1e-4)
+        share = LEAST_R if low <= 0.0 else MOST_R if high >= 0.0 else brentq(surplus, LEAST_R, MOST_R,
+                                                                             (0.0, ), xtol=1e-4)
     if rounding.is_chosen or share in (LEAST_R, MOST_R):
         if surplus(share, least) > 0.0 or surplus(share, most) < 0.0:
-            raise ValueError(f"{name}: {number} planes about its hull do not enclose the volume of the surface: it is far from convex "
-                             "(shapes.clump_from_mesh cuts it into convex parts), or r is too large")
+            raise ValueError(
+                f"{name}: {number} planes about its hull do not enclose the volume of the surface: it is far from convex "
+                "(shapes.clump_from_mesh cuts it into convex parts), or r is too large")
         shift = brentq(lambda moved: surplus(share, moved), least, most, xtol=1e-6 * size) if k < 1.0 else 0.0
     polyhedron = outer if shift == 0.0 else Polyhedron.of_planes(outer.normals, outer.offsets + shift)
     shape = polyhedron.rounded(size * share, k, shadow, name, TOLERANCE)
@@ -186,7 +195,8 @@ def _with_fit(shape, samples, volume):
     gradient = _gradients(shape.planes, shape.r, shape.k, shape.R, rays * radii[:, None])
     across = np.abs(distance - radii) * (gradient * rays).sum(1) / np.linalg.norm(gradient, axis=1)
     diameter = (6.0 * volume / math.pi) ** (1.0 / 3.0)
-    return dataclasses.replace(shape, fit=Fit(float(across.max() / diameter), float(np.sqrt((across**2).mean()) / diameter), float(volume)))
+    return dataclasses.replace(
+        shape, fit=Fit(float(across.max() / diameter), float(np.sqrt((across**2).mean()) / diameter), float(volume)))
 
 
 def _sphere(number):
@@ -197,7 +207,9 @@ def _sphere(number):
 
 
 def _radii(planes, r, k, R, rays):
-    """Where rays (n, 3) from the centre leave the particle: the root of S - 1, convex along a ray, by Newton's method from outside."""
+    """Where rays (n, 3) from the centre leave the particle: the root of S - 1, convex along a ray, by Newton's method
+    from outside.
+    """
     if not len(planes):
         return np.full(len(rays), R / math.sqrt(k))
     planes = np.asarray(planes, float)
@@ -208,7 +220,8 @@ def _radii(planes, r, k, R, rays):
     reach = np.minimum(reach, R / math.sqrt(k)) if k > 0.0 else reach
     for _ in range(50):
         beyond = np.maximum(reach[:, None] * slope - offsets, 0.0)
-        step = (weight * (beyond**2).sum(1) + ball * reach**2 - 1.0) / (2.0 * weight * (beyond * slope).sum(1) + 2.0 * ball * reach)
+        step = (weight * (beyond**2).sum(1) + ball * reach**2 - 1.0) / (2.0 * weight *
+                                                                        (beyond * slope).sum(1) + 2.0 * ball * reach)
         reach = reach - np.maximum(step, 0.0)
         if (step <= 1e-12 * reach).all():
             break

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points and triangles of a GTS file: a line of counts, the points, the edges as pairs of points, the triangles as three edges.
+"""Points and triangles of a GTS file: a line of counts, the points, the edges as pairs of points, the triangles as
+three edges.
 
 Read here, since GTS's own reader ends the process where edges do not make the triangle that they should.
 """
@@ -15,7 +16,9 @@ def read_gts(file):
         raise ValueError("it holds no line")
     counts = numbers(lines[0][:3], int, 3, "the first line")
     if min(counts) < 0 or sum(counts) != len(lines) - 1:
-        raise ValueError("its first line states {} vertices, {} edges and {} faces, and {} lines follow".format(*counts, len(lines) - 1))
+        raise ValueError("its first line states {} vertices, {} edges and {} faces, and {} lines follow".format(
+            *counts,
+            len(lines) - 1))
     ends = np.cumsum([1] + counts)
     points, edges, faces = (lines[begin:end] for begin, end in zip(ends, ends[1:]))
     points = np.array([numbers(line[:3], float, 3, "a vertex") for line in points], float).reshape(-1, 3)

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The law of joints in the place of another, bonds of joints, what the law needs before a scene steps, and what engines give to joints."""
+"""The law of joints in the place of another, bonds of joints, what the law needs before a scene steps, and what engines
+give to joints.
+"""
 
 import json
 import math
@@ -14,7 +16,9 @@ _tables = {}
 
 
 def table(tag, text):
-    """{(lower id, higher id): values by name} of what an engine of rock.joint_engine gives contacts, from the text of its tag."""
+    """{(lower id, higher id): values by name} of what an engine of rock.joint_engine gives contacts, from the text of
+    its tag.
+    """
     known = _tables.get(tag)
     if known is None or known[0] != text:
         read = json.loads(text)
@@ -34,14 +38,25 @@ def given_by_engines(scene):
 
 
 def of_engine(values):
-    """Values of table() as attributes of ConicJointPhys, by name; stiffnesses of 0 are left out, which leave a joint its own."""
-    tangents = {f"tangensOf{name[0].upper()}{name[1:]}": math.tan(values[name]) for name in ("frictionAngle", "residualFrictionAngle")}
-    others = {name: float(value) for name, value in values.items() if not name.endswith("Angle") and not (name.endswith("Stiffness") and value <= 0.0)}
+    """Values of table() as attributes of ConicJointPhys, by name; stiffnesses of 0 are left out, which leave a joint
+    its own.
+    """
+    tangents = {
+        f"tangensOf{name[0].upper()}{name[1:]}": math.tan(values[name])
+        for name in ("frictionAngle", "residualFrictionAngle")
+    }
+    others = {
+        name: float(value)
+        for name, value in values.items()
+        if not name.endswith("Angle") and not (name.endswith("Stiffness") and value <= 0.0)
+    }
     return {**tangents, **others}
 
 
 def require_patches(engines):
-    """ValueError where a contact loop with the law of joints has contact functors that do not find the patch: no joint would have a force."""
+    """ValueError where a contact loop with the law of joints has contact functors that do not find the patch: no joint
+    would have a force.
+    """
     for engine in engines:
         laws = [type(law).__name__ for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())]
         if LAW not in laws:
@@ -54,7 +69,9 @@ def require_patches(engines):
 
 
 def require_angles(scene):
-    """ValueError where a ConicJointMat has a friction angle that is none: the attribute is YADE's, which takes any number."""
+    """ValueError where a ConicJointMat has a friction angle that is none: the attribute is YADE's, which takes any
+    number.
+    """
     import yade
     for material in scene.materials:
         if isinstance(material, yade.ConicJointMat):
@@ -62,19 +79,25 @@ def require_angles(scene):
 
 
 def chosen():
-    """Whether LAW in the environment is "joint", as the examples ask; False for "point" and without it. SystemExit with a sentence for anything else."""
+    """Whether LAW in the environment is "joint", as the examples ask; False for "point" and without it. SystemExit with
+    a sentence for anything else.
+    """
     law = os.environ.get("LAW") or "point"
     if law not in ("point", "joint"):
-        raise SystemExit(f"LAW={law!r} in the environment: it is point (or nothing), or joint for contact patches with the law of joints")
+        raise SystemExit(
+            f"LAW={law!r} in the environment: it is point (or nothing), or joint for contact patches with the law of joints"
+        )
     return law == "joint"
 
 
 def use_joints(**material):
-    """Gives a scene that is set up, and has not stepped, the law of joints (docs/joints.md) in the place of the law of its contact loop.
+    """Gives a scene that is set up, and has not stepped, the law of joints (docs/joints.md) in the place of the law of
+    its contact loop.
 
-    Each FrictMat of a body becomes a ConicJointMat of the same density, Young's modulus, Poisson's ratio and friction angle; `material`: further
-    attributes of all of them, or in the place of those. The contact functors of this package get patch=True, and the physics functors and laws of the
-    contact loop give way to those of joints. ValueError where there is no contact loop or already a contact, or a body has another material.
+    Each FrictMat of a body becomes a ConicJointMat of the same density, Young's modulus, Poisson's ratio and friction
+    angle; `material`: further attributes of all of them, or in the place of those. The contact functors of this package
+    get patch=True, and the physics functors and laws of the contact loop give way to those of joints. ValueError where
+    there is no contact loop or already a contact, or a body has another material.
     """
     import yade
     scene = yade.O
@@ -82,11 +105,14 @@ def use_joints(**material):
     if not loops:
         raise ValueError("the scene has no contact loop yet: set O.engines first")
     if any(contact.isReal for contact in scene.interactions):
-        raise ValueError("there are contacts already, with physics of another law: call use_joints before the first step")
+        raise ValueError(
+            "there are contacts already, with physics of another law: call use_joints before the first step")
     joints = {}
     for body in [body for body in scene.bodies if body.mat is not None]:
         if not isinstance(body.mat, yade.FrictMat):
-            raise ValueError(f"body {body.id} has a {type(body.mat).__name__}: use_joints takes FrictMat and what is derived from it")
+            raise ValueError(
+                f"body {body.id} has a {type(body.mat).__name__}: use_joints takes FrictMat and what is derived from it"
+            )
         if body.mat.id not in joints:
             given = {name: getattr(body.mat, name) for name in ("density", "young", "poisson", "frictionAngle")}
             joints[body.mat.id] = scene.materials[scene.materials.append(yade.ConicJointMat(**{**given, **material}))]
@@ -100,10 +126,11 @@ def use_joints(**material):
 
 
 def bond_contacts(bodies=None):
-    """Bonds the joints that there are, all or those between bodies with these ids, as they are in the next step; returns their number.
+    """Bonds the joints that there are, all or those between bodies with these ids, as they are in the next step;
+    returns their number.
 
-    Joints are contacts with ConicJointPhys. Those that have broken are whole again. For joints that are made later see `bonds` of
-    Ip2_ConicJointMat_ConicJointMat_ConicJointPhys.
+    Joints are contacts with ConicJointPhys. Those that have broken are whole again. For joints that are made later see
+    `bonds` of Ip2_ConicJointMat_ConicJointMat_ConicJointPhys.
     """
     import yade
     chosen = None if bodies is None else {int(one) for one in bodies}

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The law of joints of a scene in LAMMPS's words: what its materials give two bodies, as Ip2_ConicJointMat_ConicJointMat_ConicJointPhys has it, and
-how the joints that there are begin."""
+"""The law of joints of a scene in LAMMPS's words: what its materials give two bodies, as
+Ip2_ConicJointMat_ConicJointMat_ConicJointPhys has it, and how the joints that there are begin.
+"""
 import math
 from typing import NamedTuple
 
@@ -15,7 +16,9 @@ _NO_FORCE = 1e-6
 
 
 class Settings(NamedTuple):
-    """patch tolerance; whether joints of bodies that are whole are bonded; steps before which joints of bodies, and of walls, are whole."""
+    """patch tolerance; whether joints of bodies that are whole are bonded; steps before which joints of bodies, and of
+    walls, are whole.
+    """
 
     tolerance: float
     bonds: bool
@@ -24,15 +27,24 @@ class Settings(NamedTuple):
 
 
 def settings(scene, given):
-    """Settings of the scene's joints, None without its law; ValueError where they are what LAMMPS cannot begin with. given: as of joints.given_by_engines."""
+    """Settings of the scene's joints, None without its law; ValueError where they are what LAMMPS cannot begin with.
+    given: as of joints.given_by_engines.
+    """
     for engine in scene.engines:
         laws = [type(law).__name__ for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())]
         if LAW not in laws:
             continue
-        tolerances = [functor.patchTolerance for functor in engine.geomDispatcher.functors if getattr(functor, "patch", False)]
-        physics = [functor for functor in engine.physDispatcher.functors if type(functor).__name__ == "Ip2_ConicJointMat_ConicJointMat_ConicJointPhys"]
+        tolerances = [
+            functor.patchTolerance for functor in engine.geomDispatcher.functors if getattr(functor, "patch", False)
+        ]
+        physics = [
+            functor for functor in engine.physDispatcher.functors
+            if type(functor).__name__ == "Ip2_ConicJointMat_ConicJointMat_ConicJointPhys"
+        ]
         if not tolerances or not physics:
-            raise ValueError(f"{LAW} without Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, or without patch=True of a contact functor: nothing to carry over")
+            raise ValueError(
+                f"{LAW} without Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, or without patch=True of a contact functor: nothing to carry over"
+            )
         of_bodies, of_walls = _joints(scene)
         _as_their_materials(scene, of_bodies + of_walls, given)
         later = max(physics[0].cohesiveTresholdIteration - scene.iter, 0)
@@ -58,16 +70,22 @@ def _as_their_materials(scene, joints, given):
         one, other = (scene.bodies[number].mat for number in (contact.id1, contact.id2))
         values = parameters(one, other, (contact.geom.refR1, contact.geom.refR2), given.get(_pair(contact)))
         for name, value in values.items():
-            if name != "restitution" and not math.isclose(getattr(contact.phys, name), value, rel_tol=_SAME, abs_tol=1e-12):
-                wrong.append(f"{name} of {contact.id1} and {contact.id2} is {getattr(contact.phys, name):g}, and {value:g} by their materials")
+            if name != "restitution" and not math.isclose(getattr(contact.phys, name), value, rel_tol=_SAME,
+                                                          abs_tol=1e-12):
+                wrong.append(
+                    f"{name} of {contact.id1} and {contact.id2} is {getattr(contact.phys, name):g}, and {value:g} by their materials"
+                )
                 break
     if wrong:
-        raise ValueError(f"{_count(len(wrong), 'joint has', 'joints have')} other numbers than materials and joint_engine give ({wrong[0]}), and LAMMPS has them by types "
-                         "alone: change the materials as a script changed the joints, or convert the scene before that")
+        raise ValueError(
+            f"{_count(len(wrong), 'joint has', 'joints have')} other numbers than materials and joint_engine give ({wrong[0]}), and LAMMPS has them by types "
+            "alone: change the materials as a script changed the joints, or convert the scene before that")
 
 
 def _of_bodies(scene, joints, makes_bonds, later):
-    """(bonds, whole) with which LAMMPS begins with these joints: whole all of them or none, and all of those with strength bonded or none."""
+    """(bonds, whole) with which LAMMPS begins with these joints: whole all of them or none, and all of those with
+    strength bonded or none.
+    """
     bonded = [contact for contact in joints if contact.phys.bonded]
     if bonded or any(_would_lose(contact.phys) for contact in joints):
         bonds, whole = bool(bonded), max(later, 1)
@@ -79,19 +97,29 @@ def _of_bodies(scene, joints, makes_bonds, later):
         lost += _few(broken, "joint has broken, and would be whole", "joints have broken, and would be whole")
         loose = [contact for contact in joints if not contact.phys.bonded and _has_strength(contact.phys)
                  and not (contact.phys.broken and _weakens(contact.phys))]
-        lost += _few(loose if bonds else [], "joint has no bond, and would have one", "joints have no bond, and would have one")
-    lost += _few([contact for contact in bonded if contact.phys.damage > 0], "bond is damaged, and would not be", "bonds are damaged, and would not be")
-    lost += _few([contact for contact in bonded if _opens(scene, contact)], "bond has opened at an edge, and would lose its area there",
+        lost += _few(loose if bonds else [], "joint has no bond, and would have one",
+                     "joints have no bond, and would have one")
+    lost += _few([contact for contact in bonded if contact.phys.damage > 0], "bond is damaged, and would not be",
+                 "bonds are damaged, and would not be")
+    lost += _few([contact for contact in bonded if _opens(scene, contact)],
+                 "bond has opened at an edge, and would lose its area there",
                  "bonds have opened at an edge, and would lose their area there")
     if later > 1 and bonds != makes_bonds:
         lost.append(f"joints made in the next {later - 1} steps would {'' if bonds else 'not '}be bonded")
     if lost:
-        raise ValueError(f"the scene has {_count(len(bonded), 'bond', 'bonds')} in {_count(len(joints), 'joint', 'joints')}, and LAMMPS begins with new ones, all alike: "
-                         + "; ".join(lost) + ". Convert the scene before its first step, or while its bonds are as they were made")
-    sheared = [contact for contact in bonded if max(contact.phys.shearForce.norm(), abs(contact.phys.twistMoment) / _reach(contact.phys)) > _NO_FORCE * contact.phys.normalForce.norm()]
+        raise ValueError(
+            f"the scene has {_count(len(bonded), 'bond', 'bonds')} in {_count(len(joints), 'joint', 'joints')}, and LAMMPS begins with new ones, all alike: "
+            + "; ".join(lost) + ". Convert the scene before its first step, or while its bonds are as they were made")
+    sheared = [
+        contact for contact in bonded
+        if max(contact.phys.shearForce.norm(),
+               abs(contact.phys.twistMoment) / _reach(contact.phys)) > _NO_FORCE * contact.phys.normalForce.norm()
+    ]
     if sheared:
         most = max(contact.phys.shearForce.norm() for contact in sheared)
-        warn(f"{_few(sheared, 'bond holds shear or twist', 'bonds hold shear or twist')[0]}, up to {most:.3g} N, and LAMMPS begins without that: convert the scene before its first step")
+        warn(
+            f"{_few(sheared, 'bond holds shear or twist', 'bonds hold shear or twist')[0]}, up to {most:.3g} N, and LAMMPS begins without that: convert the scene before its first step"
+        )
     return bonds, whole
 
 
@@ -99,13 +127,16 @@ def _of_walls(joints, later):
     """Steps before which joints with walls are whole."""
     bonded = [contact for contact in joints if contact.phys.bondArea > 0]
     if bonded:
-        warn(f"{_few(bonded, 'bond with a wall', 'bonds with walls')[0]}: walls of LAMMPS make none; take fixed bodies in their place")
+        warn(
+            f"{_few(bonded, 'bond with a wall', 'bonds with walls')[0]}: walls of LAMMPS make none; take fixed bodies in their place"
+        )
     kept = any(_would_lose(contact.phys) for contact in joints)
     whole = max(later, 1) if kept else later
     broken = [contact for contact in joints if contact.phys.broken and _weakens(contact.phys)]
     if whole > 0 and broken:
-        raise ValueError(f"{_few(broken, 'joint with a wall has broken, and would be whole', 'joints with walls have broken, and would be whole')[0]}: "
-                         "LAMMPS begins with all joints alike; convert the scene before its first step")
+        raise ValueError(
+            f"{_few(broken, 'joint with a wall has broken, and would be whole', 'joints with walls have broken, and would be whole')[0]}: "
+            "LAMMPS begins with all joints alike; convert the scene before its first step")
     return whole
 
 
@@ -155,12 +186,14 @@ def _few(contacts, one, more):
     """[how many, what, and the first of them]; [] for none."""
     if not contacts:
         return []
-    names = ", ".join(f"{contact.id1} and {contact.id2}" for contact in contacts[:3]) + (", ..." if len(contacts) > 3 else "")
+    names = ", ".join(f"{contact.id1} and {contact.id2}"
+                      for contact in contacts[:3]) + (", ..." if len(contacts) > 3 else "")
     return [f"{_count(len(contacts), one, more)} ({names})"]
 
 
 def parameters(one, other, radii, given=None):
-    """What ConicJointPhys of two ConicJointMat has, of bodies with these bounding radii (that of the particle for a wall, too), by name, and restitution.
+    """What ConicJointPhys of two ConicJointMat has, of bodies with these bounding radii (that of the particle for a
+    wall, too), by name, and restitution.
 
     given: what an engine of rock.joint_engine gives the joint, in the place of that.
     """
@@ -182,10 +215,15 @@ def parameters(one, other, radii, given=None):
     def least(name):
         return min(float(getattr(material, name)) for material, _ in pairs)
 
-    residual = min(material.residualFrictionAngle if material.residualFrictionAngle >= 0 else material.frictionAngle for material, _ in pairs)
-    found = {"normalStiffness": mean(normal), "shearStiffness": mean(shear), "tangensOfFrictionAngle": math.tan(least("frictionAngle")),
-             "tangensOfResidualFrictionAngle": math.tan(residual),
-             **{name: least(name) for name in ("restitution", "cohesion", "residualCohesion", "tensileStrength", "softening")}}
+    residual = min(material.residualFrictionAngle if material.residualFrictionAngle >= 0 else material.frictionAngle
+                   for material, _ in pairs)
+    found = {
+        "normalStiffness": mean(normal), "shearStiffness": mean(shear), "tangensOfFrictionAngle": math.tan(
+            least("frictionAngle")), "tangensOfResidualFrictionAngle": math.tan(residual), **{
+                name: least(name)
+                for name in ("restitution", "cohesion", "residualCohesion", "tensileStrength", "softening")
+            }
+    }
     return {**found, **of_engine(given)} if given else found
 
 

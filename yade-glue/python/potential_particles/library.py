@@ -34,7 +34,9 @@ def call(name, *arguments):
 
 
 def made(name, *arguments, results=()):
-    """The handle that a function makes; `results`: its outputs after the handle. ValueError with the sentence that it writes."""
+    """The handle that a function makes; `results`: its outputs after the handle. ValueError with the sentence that it
+    writes.
+    """
     handle, why = ctypes.c_void_p(), ctypes.create_string_buffer(_MESSAGE_SIZE)
     outputs = ctypes.byref(handle), *map(_given, results), why, ctypes.c_size_t(_MESSAGE_SIZE)
     if getattr(_library(), name)(*map(_given, arguments), *outputs):

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Extrema, volume, porosity, contacts and stress of scenes with potential particles.
 
-YADE's own count spheres alone: what utils.aabbExtrema(), porosity(), voxelPorosity(), getSpheresVolume() and RayleighWaveTimeStep() give for these
-bodies is undefined. kineticEnergy(), momentum(), angularMomentum() and unbalancedForce() are right (the last is
-NaN as long as there is no contact).
+YADE's own count spheres alone: what utils.aabbExtrema(), porosity(), voxelPorosity(), getSpheresVolume() and
+RayleighWaveTimeStep() give for these bodies is undefined. kineticEnergy(), momentum(), angularMomentum() and
+unbalancedForce() are right (the last is NaN as long as there is no contact).
 """
 import math
 
@@ -12,9 +12,9 @@ from .bodies import image_shift, is_free
 
 
 def extrema(bodies=None):
-    """Lower and upper corner (two Vector3) of a box, world axes, that holds all potential particles and spheres of the scene, or those
-    with these ids. It is that of their bounding polyhedra: around a corner or an edge it reaches out beyond the surface
-    by what the rounding takes off. ValueError where there is none.
+    """Lower and upper corner (two Vector3) of a box, world axes, that holds all potential particles and spheres of the
+    scene, or those with these ids. It is that of their bounding polyhedra: around a corner or an edge it reaches out
+    beyond the surface by what the rounding takes off. ValueError where there is none.
     """
     import yade
     lower, upper = [math.inf] * 3, [-math.inf] * 3
@@ -27,8 +27,9 @@ def extrema(bodies=None):
 
 
 def solid_volume(bodies=None):
-    """Volume of all potential particles and spheres that are no boundaries and not fixed, or of those with these ids, length^3; of a clump
-    that of its mass, once."""
+    """Volume of all potential particles and spheres that are no boundaries and not fixed, or of those with these ids,
+    length^3; of a clump that of its mass, once.
+    """
     return sum(volumes_of_grains(bodies).values())
 
 
@@ -46,7 +47,8 @@ def volumes_of_grains(bodies=None):
 
 
 def porosity(lower=None, upper=None, bodies=None):
-    """1 - solid volume / volume of the box between two corners; default: the periodic cell, else extrema() of the bodies that move.
+    """1 - solid volume / volume of the box between two corners; default: the periodic cell, else extrema() of the
+    bodies that move.
 
     All of a body counts, whether or not it lies within the box; overlaps count twice.
     """
@@ -66,18 +68,21 @@ def porosity(lower=None, upper=None, bodies=None):
 
 
 def stress(volume=None, moving=False):
-    """Mean stress (Love-Weber) of potential particles and spheres, a Matrix3 in Pa, negative in compression as that of YADE's getStress():
+    """Mean stress (Love-Weber) of potential particles and spheres, a Matrix3 in Pa, negative in compression as that of
+    YADE's getStress():
 
         sigma = 1/volume sum over particles, sum over their contacts  f (x_c - x)^T
 
-    f: force on the particle at the contact point x_c, x: its centre of mass (of its clump), so that a contact of two particles counts with
-    the vector between their centres and one with a wall from centre to wall. Where all is at rest, without gravity, this is force by area of smooth walls. volume:
-    length^3; default: that of the periodic cell. ValueError where there is none. Forces are those of normalForce and shearForce of
-    the contact's physics: dashpots that a law does not write there are left out.
+    f: force on the particle at the contact point x_c, x: its centre of mass (of its clump), so that a contact of two
+    particles counts with the vector between their centres and one with a wall from centre to wall. Where all is at
+    rest, without gravity, this is force by area of smooth walls. volume: length^3; default: that of the periodic cell.
+    ValueError where there is none. Forces are those of normalForce and shearForce of the contact's physics: dashpots
+    that a law does not write there are left out.
 
-    moving=True adds 1/volume sum over particles  F (x - x_m)^T, F the sum of the contact forces on a particle, which accelerates it or is taken by numerical
-    damping, x_m the mean of all x. It is then the stress on the walls to rounding, at rest or not (with contact points for places of the walls, and as long as the
-    sum of all F is small against the force of a wall); without it the stress within. In a periodic cell, which has no walls, ValueError.
+    moving=True adds 1/volume sum over particles F (x - x_m)^T, F the sum of the contact forces on a particle, which
+    accelerates it or is taken by numerical damping, x_m the mean of all x. It is then the stress on the walls to
+    rounding, at rest or not (with contact points for places of the walls, and as long as the sum of all F is small
+    against the force of a wall); without it the stress within. In a periodic cell, which has no walls, ValueError.
     """
     import yade
     if volume is None and not yade.O.periodic:
@@ -90,8 +95,9 @@ def stress(volume=None, moving=False):
 
 
 def body_stresses():
-    """Mean stress within each potential particle and sphere that moves (of clumps, each member by itself): {id: Matrix3}, Pa, as stress() with
-    the volume of the body."""
+    """Mean stress within each potential particle and sphere that moves (of clumps, each member by itself): {id:
+    Matrix3}, Pa, as stress() with the volume of the body.
+    """
     import yade
     of_body = {body.id: [] for body in counted(None) if is_grain(body)}
     for side in _sides():
@@ -100,7 +106,8 @@ def body_stresses():
 
 
 def fabric_tensor():
-    """1/N sum of n n^T over the N contacts of particles, those with walls included: a Matrix3 of trace 1, n the contact normal.
+    """1/N sum of n n^T over the N contacts of particles, those with walls included: a Matrix3 of trace 1, n the contact
+    normal.
 
     ValueError where there is no contact.
     """
@@ -114,8 +121,8 @@ def fabric_tensor():
 def coordination_number(skip_free=False):
     """Mean number of contacts of a particle, those with walls included.
 
-    skip_free: without particles that bear nothing, of no contact or of one, and without their contacts: (2 C - N_1) / (N - N_0 - N_1).
-    ValueError where no particle is left.
+    skip_free: without particles that bear nothing, of no contact or of one, and without their contacts: (2 C - N_1) /
+    (N - N_0 - N_1). ValueError where no particle is left.
     """
     count = {body.id: 0 for body in counted(None) if is_grain(body)}
     for body, _, _, _ in _sides():
@@ -131,11 +138,15 @@ def contacts():
     """The scene's contacts. YADE keeps those of a body that was erased until the next step; they are none."""
     import yade
     there = {body.id for body in yade.O.bodies}
-    return [contact for contact in yade.O.interactions if contact.isReal and contact.id1 in there and contact.id2 in there]
+    return [
+        contact for contact in yade.O.interactions if contact.isReal and contact.id1 in there and contact.id2 in there
+    ]
 
 
 def _sides():
-    """(body, contact, force on the body, arm from its centre of mass) of each particle that moves in each contact that touches or is bonded."""
+    """(body, contact, force on the body, arm from its centre of mass) of each particle that moves in each contact that
+    touches or is bonded.
+    """
     import yade
     scene, found = yade.O, []
     for contact in contacts():
@@ -186,7 +197,8 @@ def _extent(body):
     corners = [body.state.ori * corner for corner in shape.vertices]
     radius = getattr(shape, "boundingRadius", math.inf)
     along = [[corner[axis] for corner in corners] for axis in range(3)]
-    return [(place[axis] + max(min(along[axis]), -radius), place[axis] + min(max(along[axis]), radius)) for axis in range(3)]
+    return [(place[axis] + max(min(along[axis]), -radius), place[axis] + min(max(along[axis]), radius))
+            for axis in range(3)]
 
 
 def volume_of(body):
@@ -203,7 +215,8 @@ def volume_of(body):
 
 
 def overlap_ratio():
-    """The largest overlap of a contact of potential particles over its rounding radius, the smaller r of the two; 0 without a contact.
+    """The largest overlap of a contact of potential particles over its rounding radius, the smaller r of the two; 0
+    without a contact.
 
     Of a contact patch it is the largest depth. Results are those of rounded bodies as long as it is below 1.
     """

@@ -10,21 +10,24 @@ from .mesh_text import read_obj, read_stl
 from .polyhedron import Polyhedron
 from .rounding import SPHERICITY, Rounding
 
-# How far from its plane four corners may put a face, over the largest coordinate, if each is off by half a unit of the seventh digit, 5e-7 at most, or of
-# the last digit of single precision, 6e-8.
+# How far from its plane four corners may put a face, over the largest coordinate, if each is off by half a unit of the
+# seventh digit, 5e-7 at most, or of the last digit of single precision, 6e-8.
 OF_SEVEN_DIGITS, OF_SINGLE = 4e-6, 5e-7
 
 READABLE = ".stl (binary or text), .obj, .gts"
 
 
-def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, name=None, planes=None, error=None, *, r=None):
+def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, name=None, planes=None, error=None, *,
+              r=None):
     """Of a closed convex surface in a file (.stl, .obj, .gts), in the file's frame, all lengths multiplied by `scale`.
 
     A surface that is open, not convex or crosses itself is a ValueError that says where, in the file's numbers;
     hull=True takes its convex hull instead. A flat one is an error in any case.
-    Its faces are those of the hull, if they are at most 60, else 60 planes with a SceneWarning; planes="all": all of them; planes=N: at most N;
-    error=e: as few as leave no point of the surface further away than e times its equivalent diameter. Without rounding and r,
-    r is chosen so that the volume is that of the surface where N or e is given, else it is the default, or less where that would cost more than 1 % of the volume. A shape that is more than 2 % off is made with a SceneWarning. `shape.fit` has the distances, of all faces too.
+    Its faces are those of the hull, if they are at most 60, else 60 planes with a SceneWarning; planes="all": all of
+    them; planes=N: at most N; error=e: as few as leave no point of the surface further away than e times its equivalent
+    diameter. Without rounding and r, r is chosen so that the volume is that of the surface where N or e is given, else
+    it is the default, or less where that would cost more than 1 % of the volume. A shape that is more than 2 % off is
+    made with a SceneWarning. `shape.fit` has the distances, of all faces too.
     """
     scale = positive(scale, "scale")
     points, triangles = read(file)
@@ -39,7 +42,8 @@ def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, 
         surface = Polyhedron.of_points(points, known * scale)
     samples = np.concatenate([points[np.unique(triangles)], points[triangles].mean(1)])
     name = name or os.path.splitext(os.path.basename(file))[0]
-    shape = fitting.of_surface(surface, samples, volume_within(points, triangles), Rounding(rounding, k, r, R), name, planes, error)
+    shape = fitting.of_surface(surface, samples, volume_within(points, triangles), Rounding(rounding, k, r, R), name,
+                               planes, error)
     return fitting.warn_of_volume(shape, f"{file}")
 
 
@@ -54,14 +58,17 @@ def known_to(points):
 def volume_within(points, triangles):
     """Volume of a closed surface whose triangles all go round the same way, or else of the convex hull."""
     ways = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
-    closed = len(np.unique(ways, axis=0)) == len(ways) and np.array_equal(np.unique(ways, axis=0), np.unique(ways[:, ::-1], axis=0))
+    closed = len(np.unique(ways, axis=0)) == len(ways) and np.array_equal(np.unique(ways, axis=0),
+                                                                          np.unique(ways[:, ::-1], axis=0))
     middle = points.mean(0)
     a, b, c = (points[triangles[:, i]] - middle for i in range(3))
     return abs(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6.0 if closed else Polyhedron.of_points(points).volume
 
 
 def read(file):
-    """Points (n, 3) and triangles (m, 3), numbers of points, of a file; equal points are one. ValueError if it holds none."""
+    """Points (n, 3) and triangles (m, 3), numbers of points, of a file; equal points are one. ValueError if it holds
+    none.
+    """
     file = os.fspath(file)
     if not os.path.isfile(file):
         raise ValueError(f"{file} is no file")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Points and polygons of STL and OBJ files.
 
-Read here: the readers of VTK take counts and indices as they are, where one that is wrong ends the process, and numbers by the locale of the process, which Qt sets.
+Read here: the readers of VTK take counts and indices as they are, where one that is wrong ends the process, and numbers
+    by the locale of the process, which Qt sets.
 """
 import re
 
@@ -15,7 +16,8 @@ _CORNER, _NAMED = re.compile(f"{_INDEX}(?:/{_INDEX}|/{_INDEX}?/{_INDEX})?"), ("v
 
 
 def read_text(file):
-    """The lines of a text in UTF-8, with or without its mark; other bytes stand for themselves. ValueError for UTF-16."""
+    """The lines of a text in UTF-8, with or without its mark; other bytes stand for themselves. ValueError for UTF-16.
+    """
     with open(file, "rb") as opened:
         return lines_of(opened.read())
 
@@ -27,7 +29,8 @@ def lines_of(content):
 
 
 def read_stl(file):
-    """Points (3 m, 3) and triangles (m, 3) of a binary or text file; ValueError where it states what it does not hold."""
+    """Points (3 m, 3) and triangles (m, 3) of a binary or text file; ValueError where it states what it does not hold.
+    """
     with open(file, "rb") as opened:
         content = opened.read()
     stated = int.from_bytes(content[80:_HEADER], "little")
@@ -43,7 +46,9 @@ def _stl_text(content, stated):
     if b"\0" in content or not "".join(lines[:1]).lstrip().lower().startswith("solid"):
         if len(content) < _HEADER:
             raise ValueError(f"it has {len(content)} bytes, and the header of a binary file alone has {_HEADER}")
-        raise ValueError(f"its header states {stated} triangles, and its {len(content)} bytes hold {(len(content) - _HEADER) / _TRIANGLE.itemsize:.6g}")
+        raise ValueError(
+            f"its header states {stated} triangles, and its {len(content)} bytes hold {(len(content) - _HEADER) / _TRIANGLE.itemsize:.6g}"
+        )
     facets, vertices = 0, []
     for words in filter(None, map(str.split, lines)):
         word = words[0].lower()
@@ -74,7 +79,8 @@ def read_obj(file):
                 raise ValueError(f"an element {words[0]!r} names no point")
             corners = [_CORNER.fullmatch(corner) for corner in words[1:]]
             if None in corners or len({tuple(one is None for one in corner.groups()) for corner in corners}) > 1:
-                raise ValueError(f"the element {' '.join(words)[:60]!r} has corners in more than one form, or none that is known")
+                raise ValueError(
+                    f"the element {' '.join(words)[:60]!r} has corners in more than one form, or none that is known")
             for corner in corners:
                 for index, what in zip(corner.groups(), _NAMED):
                     if index is not None:
@@ -97,5 +103,7 @@ def numbers(words, kind, count, what):
     except ValueError:
         found = []
     if len(found) != count:
-        raise ValueError(f"{what} has {' '.join(words)[:40]!r} where {count} {'whole ' if kind is int else ''}number{'s' * (count > 1)} should stand")
+        raise ValueError(
+            f"{what} has {' '.join(words)[:40]!r} where {count} {'whole ' if kind is int else ''}number{'s' * (count > 1)} should stand"
+        )
     return found

@@ -12,8 +12,8 @@ import functools
 import threading
 import time
 
-_BODIES = ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "replaceByClumps", "insertAtId", "replace",
-           "erase", "deleteClumpBody", "deleteClumpMember", "clear")
+_BODIES = ("append", "appendClumped", "clump", "addToClump", "releaseFromClump", "replaceByClumps", "insertAtId",
+           "replace", "erase", "deleteClumpBody", "deleteClumpMember", "clear")
 _INTERACTIONS = ("erase", "eraseNonReal", "clear")
 _LISTS = ("a", "b", "c", "d", "vertices")
 
@@ -62,14 +62,16 @@ def _refusing(yade, method, what):
     @functools.wraps(method)
     def refusing(*arguments, **keywords):
         if _stepped_by_another_thread(yade):
-            raise RuntimeError(f"{what} while O.run() steps in another thread could end the process: "
-                               "call it from a PyRunner engine, or when the run has ended (O.run(steps, wait=True), O.pause())")
+            raise RuntimeError(
+                f"{what} while O.run() steps in another thread could end the process: "
+                "call it from a PyRunner engine, or when the run has ended (O.run(steps, wait=True), O.pause())")
         return method(*arguments, **keywords)
     return refusing
 
 
 def _pausing(yade, pause):
-    """O.pause() that waits for the step it is in, which YADE's own leaves to go on unseen: O.running is False by then."""
+    """O.pause() that waits for the step it is in, which YADE's own leaves to go on unseen: O.running is False by then.
+    """
     @functools.wraps(pause)
     def pausing(omega):
         if _stepped_by_another_thread(yade):

@@ -3,8 +3,8 @@
 
     from potential_particles import add_packing, pack, packing, shapes
     rocks = [shapes.random_rock(seed) for seed in range(20)]
-    bodies = pack(packing.Box((0, 0, 0), (2, 2, 4)), rocks, sizes=[(0.1, 0.0), (0.2, 0.4), (0.4, 1.0)], shares="passing", dense=True)
-    add_packing(bodies, material)
+    bodies = pack(packing.Box((0, 0, 0), (2, 2, 4)), rocks, sizes=[(0.1, 0.0), (0.2, 0.4), (0.4, 1.0)],
+    shares="passing", dense=True) add_packing(bodies, material)
 
 The library decides what overlaps (docs/packing.md).
 """
@@ -43,21 +43,23 @@ class Placement(typing.NamedTuple):
     orientation: tuple  #: w, x, y, z
 
 
-def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None, progress=True):
+def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None,
+         progress=True):
     """Places bodies of random orientation in a container, none of which overlap; a list of Placement.
 
     container: a Box or a Cylinder. shapes: one Shape or several, each as likely as the others.
-    sizes: None for the shapes as they are; one size for all; or rows (size, share). A size is the diameter of a ball of the
-    body's volume. shares says what a share is: "number" or "mass", of bodies of that size, with a sum of 1; or "passing", a grading
+    sizes: None for the shapes as they are; one size for all; or rows (size, share). A size is the diameter of a ball of
+    the body's volume. shares says what a share is: "number" or "mass", of bodies of that size, with a sum of 1; or
+    "passing", a grading
     curve: of the mass, in bodies below that size, growing from 0 to 1 and linear between rows.
-    dense: False scatters `number` bodies in the container, the largest first; True lays each as low as it gets, from the bottom
-    upwards, `number` of them or, with None, as many as fit.
+    dense: False scatters `number` bodies in the container, the largest first; True lays each as low as it gets, from
+    the bottom upwards, `number` of them or, with None, as many as fit.
     margin: least distance between two bodies, length; that to the container is half of it.
     seed: the same one gives the same packing, whatever `threads` (by default the number of cores) is.
     progress: a bar on the terminal; where standard error is none, a line at the end.
 
-    Fewer than `number` come back where no more fit, which is said; Ctrl-C ends the packing and keeps what has its place.
-    ValueError for what cannot be packed.
+    Fewer than `number` come back where no more fit, which is said; Ctrl-C ends the packing and keeps what has its
+    place. ValueError for what cannot be packed.
     """
     shapes = _shapes(shapes)
     choices = _choices()
@@ -68,9 +70,15 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
     wanted = None if number is None else whole(number, 1, 10 * MANY, "number")
     kind, lower, upper = _space(container)
     how = {
-        "container": choices[kind], "arrangement": choices["settled" if dense else "scattered"], "shares": choices[shares],
+        "container": choices[kind],
+        "arrangement": choices["settled" if dense else "scattered"],
+        "shares": choices[shares],
         "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
-        "lower": lower, "upper": upper, "margin": finite(margin, "margin"), "seed": whole(seed, 0, LARGE, "seed"), "number": wanted or 0,
+        "lower": lower,
+        "upper": upper,
+        "margin": finite(margin, "margin"),
+        "seed": whole(seed, 0, LARGE, "seed"),
+        "number": wanted or 0,
     }
     report = _Report(wanted, progress)
     placements = []
@@ -157,7 +165,8 @@ def _placement(shape, scale, position, orientation):
 
 def _centroid(placement):
     from yade import Quaternion, Vector3
-    return Vector3(*placement.position) + Quaternion(*placement.orientation) * (Vector3(*placement.shape.centroid) * placement.scale)
+    return Vector3(*placement.position) + Quaternion(*placement.orientation) * (Vector3(*placement.shape.centroid)
+                                                                                * placement.scale)
 
 
 def _glue():
@@ -208,4 +217,5 @@ class _Report:
             elif interrupted:
                 why = "; stopped by Ctrl-C"
             seconds = time.monotonic() - self.begin
-            print(f"packed {count:,}{of} bodies in {seconds:.1f} s, {100 * solid / volume:.1f} % of the container{why}", file=sys.stderr)
+            print(f"packed {count:,}{of} bodies in {seconds:.1f} s, {100 * solid / volume:.1f} % of the container{why}",
+                  file=sys.stderr)

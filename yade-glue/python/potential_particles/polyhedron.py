@@ -23,8 +23,8 @@ class Polyhedron:
     def of_points(cls, points, known=0.0):
         """The convex hull of points (n, 3); ValueError where it has no volume.
 
-        Triangles that lie within 1e-6 of the extent of the plane of a larger one are one face with it, or within `known`, the
-        length to which the points are known.
+        Triangles that lie within 1e-6 of the extent of the plane of a larger one are one face with it, or within
+        `known`, the length to which the points are known.
         """
         points = _rows(points, 3)
         return cls(library.made("pp_polyhedron_from_points", points, len(points), float(known)))
@@ -145,8 +145,8 @@ def refuse_open(points, triangles):
 def principal_axes(inertia):
     """Principal axes of a symmetric matrix (3, 3), each the one nearest to an axis of its frame.
 
-    (w, x, y, z), w >= 0, from them to the frame; the same as a rotation (3, 3), whose columns they are; the moments about
-    them (3,).
+    (w, x, y, z), w >= 0, from them to the frame; the same as a rotation (3, 3), whose columns they are; the moments
+    about them (3,).
     """
     inertia, orientation = np.asarray(inertia, float), np.empty(4)
     six = np.array([inertia[i, j] for i, j in ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))])

@@ -3,9 +3,10 @@
 
     from potential_particles import potential_utils
 
-Theirs make PotentialBlocks, which Debian's YADE does not have. As there, faces are where the arguments say, k = 0, r is a length, half of the
-least distance of a face from the centre if it is 0 (potentialblock, whose planes are those of the core, needs r > 0); the frame of a body is at its centroid along principal axes. R has no effect for k = 0. Each
-returns a Body, or a list of them, to be appended to O.bodies.
+Theirs make PotentialBlocks, which Debian's YADE does not have. As there, faces are where the arguments say, k = 0, r is
+a length, half of the least distance of a face from the centre if it is 0 (potentialblock, whose planes are those of the
+core, needs r > 0); the frame of a body is at its centroid along principal axes. R has no effect for k = 0. Each returns
+a Body, or a list of them, to be appended to O.bodies.
 """
 import math
 import random as _random
@@ -17,18 +18,21 @@ from .bodies import body
 from .polyhedron import Polyhedron
 
 
-def potentialblock(material, a=[], b=[], c=[], d=[], r=0.0, R=0.0, mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
+def potentialblock(material, a=[], b=[], c=[], d=[], r=0.0, R=0.0, mask=1, isBoundary=False, fixed=False,
+                   color=[-1, -1, -1]):
     """A body of the planes a x + b y + c z = d of its core: its faces lie at d + r."""
     if not len(a) == len(b) == len(c) == len(d):
-        raise ValueError(f"a, b, c, d have {len(a)}, {len(b)}, {len(c)} and {len(d)} entries: all must be of one length")
+        raise ValueError(
+            f"a, b, c, d have {len(a)}, {len(b)}, {len(c)} and {len(d)} entries: all must be of one length")
     r = positive(r, "r")
     core = rows(zip(a, b, c, d), 4, "planes", "the four numbers a, b, c, d")
     lengths = np.linalg.norm(core[:, :3], axis=1)
-    return _faced(np.column_stack([core[:, :3], core[:, 3] + r * lengths]), r, material, (0, 0, 0), mask, isBoundary, fixed, color,
-                  "potential block")
+    return _faced(np.column_stack([core[:, :3], core[:, 3] + r * lengths]), r, material, (0, 0, 0), mask, isBoundary,
+                  fixed, color, "potential block")
 
 
-def cuboid(material, edges=(1, 1, 1), r=0.0, R=0.0, center=[0, 0, 0], mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
+def cuboid(material, edges=(1, 1, 1), r=0.0, R=0.0, center=[0, 0, 0], mask=1, isBoundary=False, fixed=False,
+           color=[-1, -1, -1]):
     """A cuboid with these edge lengths about `center`."""
     half = 0.5 * vector(edges, "edges")
     return _faced([(*sign * axis, h) for axis, h in zip(np.eye(3), half) for sign in (1.0, -1.0)],
@@ -58,12 +62,15 @@ def aabbPlates(material, extrema=None, thickness=0.0, r=0.0, R=0.0, mask=1, isBo
     return plates
 
 
-def cylindricalPlates(material, radius=0.0, height=0.0, thickness=0.0, numFaces=3, r=0.0, R=0.0, mask=1, isBoundary=False, fixed=True,
-                      lid=[True, True], color=None):
-    """Plates that form a hollow prism of `numFaces` sides about z, `radius` that of the circle within, heights from -height/2 to height/2; and
-    its lids, below and above, for which `lid` says whether to make them. thickness: 0 for a tenth of the radius.
+def cylindricalPlates(material, radius=0.0, height=0.0, thickness=0.0, numFaces=3, r=0.0, R=0.0, mask=1,
+                      isBoundary=False, fixed=True, lid=[True, True], color=None):
+    """Plates that form a hollow prism of `numFaces` sides about z, `radius` that of the circle within, heights from
+    -height/2 to height/2; and its lids, below and above, for which `lid` says whether to make them. thickness: 0 for a
+    tenth of the radius.
     """
-    radius, height, sides = positive(radius, "radius"), positive(height, "height"), whole(numFaces, 3, MOST_PLANES - 2, "numFaces")
+    radius, height, sides = positive(radius, "radius"), positive(height,
+                                                                 "height"), whole(numFaces, 3, MOST_PLANES - 2,
+                                                                                  "numFaces")
     thickness = positive(thickness or 0.1 * radius, "thickness")
     outer, half_angle = radius + thickness, math.pi / sides
     colour = color or [-1, -1, -1]
@@ -83,10 +90,10 @@ def cylindricalPlates(material, radius=0.0, height=0.0, thickness=0.0, numFaces=
     return plates
 
 
-def prism(material, radius1=0.0, radius2=-1, thickness=0.0, numFaces=3, r=0.0, R=0.0, center=None, color=[1, 0, 0], mask=1,
-          isBoundary=False, fixed=False):
-    """A regular prism about z: radius1 is that of the circle within the lower end, radius2 (-1: the same) within the upper one, 0 for a
-    pyramid; thickness (0: radius1) is its height. `center` is that of its heights.
+def prism(material, radius1=0.0, radius2=-1, thickness=0.0, numFaces=3, r=0.0, R=0.0, center=None, color=[1, 0, 0],
+          mask=1, isBoundary=False, fixed=False):
+    """A regular prism about z: radius1 is that of the circle within the lower end, radius2 (-1: the same) within the
+    upper one, 0 for a pyramid; thickness (0: radius1) is its height. `center` is that of its heights.
     """
     radius = positive(radius1, "radius1")
     upper = radius if radius2 == -1 else radius2
@@ -95,22 +102,24 @@ def prism(material, radius1=0.0, radius2=-1, thickness=0.0, numFaces=3, r=0.0, R
     return _body(sharp, r, material, center or (0, 0, 0), mask, isBoundary, fixed, color, "prism")
 
 
-def platonic_solid(material, numFaces, edge=0.0, ri=0.0, rm=0.0, rc=0.0, volume=0.0, r=0.0, R=None, center=[0, 0, 0], mask=1,
-                   isBoundary=False, fixed=False, color=[-1, -1, -1]):
+def platonic_solid(material, numFaces, edge=0.0, ri=0.0, rm=0.0, rc=0.0, volume=0.0, r=0.0, R=None, center=[0, 0, 0],
+                   mask=1, isBoundary=False, fixed=False, color=[-1, -1, -1]):
     """The regular solid of 4, 6, 8, 12 or 20 faces, by one of its edge, inradius, midradius, circumradius or volume."""
     if sum(one > 0.0 for one in (edge, ri, rm, rc, volume)) != 1:
         raise ValueError("give one of edge, ri, rm, rc and volume, and only one, above 0")
     unit = Polyhedron.regular_solid(whole(numFaces, 0, MOST_PLANES, "faces"), 1.0)
     inner, outer = 0.5 * unit.size, np.linalg.norm(unit.corners, axis=1).max()
     middle = math.sqrt(outer**2 - 0.25)
-    sharp = Polyhedron.regular_solid(numFaces, edge or ri / inner or rm / middle or rc / outer or (volume / unit.volume) ** (1.0 / 3.0))
+    sharp = Polyhedron.regular_solid(
+        numFaces, edge or ri / inner or rm / middle or rc / outer or (volume / unit.volume)**(1.0 / 3.0))
     return _body(sharp, r, material, center, mask, isBoundary, fixed, color, "platonic solid")
 
 
 def _faced(faces, r, material, center, mask, isBoundary, fixed, color, name):
     """A body whose faces are the planes (a, b, c, h)."""
     faces = np.array(faces, float)
-    return _body(Polyhedron.of_planes(faces[:, :3], faces[:, 3]), r, material, center, mask, isBoundary, fixed, color, name)
+    return _body(Polyhedron.of_planes(faces[:, :3], faces[:, 3]), r, material, center, mask, isBoundary, fixed, color,
+                 name)
 
 
 def _body(sharp, r, material, center, mask, isBoundary, fixed, color, name):

@@ -7,14 +7,14 @@ from .polyhedron import Polyhedron
 from .rounding import ROUNDING, SPHERICITY, Rounding
 
 
-def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, rounding=ROUNDING, k=SPHERICITY, R=None,
-                name=None, *, r=None):
+def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, rounding=ROUNDING, k=SPHERICITY,
+                R=None, name=None, *, r=None):
     """A rock of extents L >= I >= S along x, y, z of its builder's frame, the same for the same arguments.
 
-    size: I, the intermediate extent, by which a sieve sorts. elongation = I/L and flatness = S/I, both of (0, 1] (Zingg 1935).
-    Its `faces` planes are tangent to the ellipsoid with these axes, or by up to `roughness` of its radius (0 to 1) further out:
-    the more faces, the rounder. Six of them, across the axes, set the extents: flat there for at least r, they reach them
-    to within r k.
+    size: I, the intermediate extent, by which a sieve sorts. elongation = I/L and flatness = S/I, both of (0, 1] (Zingg
+    1935). Its `faces` planes are tangent to the ellipsoid with these axes, or by up to `roughness` of its radius (0 to
+    1) further out: the more faces, the rounder. Six of them, across the axes, set the extents: flat there for at least
+    r, they reach them to within r k.
     """
     seed, faces = whole(seed, 0, LARGE, "seed"), whole(faces, 6, 10_000, "faces")
     size, roughness = positive(size, "size"), within(roughness, 0.0, 1.0, "roughness")

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How edges and corners are rounded, as a script says it: r as a length or as a share of the size.
 
-The size is the diameter of the largest ball that fits inside the sharp body. How the planes of the particle follow from its
+The size is the diameter of the largest ball that fits inside the sharp body. How the planes of the particle follow from
+its
 faces: src/shapes/rounding.rs.
 """
 import functools
@@ -39,8 +40,9 @@ class Rounding(typing.NamedTuple):
         if self.r is not None:
             r = number(self.r, "r")
             if not 0.0 < r < 0.5 * size:
-                raise ValueError(f"r={r:g} is a length and must lie between 0 and {0.5 * size:.6g}, half the diameter of the largest "
-                                 "ball that fits inside: rounding= gives it as a share of that diameter")
+                raise ValueError(
+                    f"r={r:g} is a length and must lie between 0 and {0.5 * size:.6g}, half the diameter of the largest "
+                    "ball that fits inside: rounding= gives it as a share of that diameter")
             return r, k, R
         share = number(share if self.share is None else self.share, "rounding")
         if not 0.0 < share < 0.5:
@@ -52,5 +54,6 @@ class Rounding(typing.NamedTuple):
 @functools.lru_cache(maxsize=1)
 def _warn_of_lengths():
     """Once a process, until December 2027, for scripts written for version 0.1."""
-    warnings.warn_explicit("r and R of shapes are lengths; until version 0.1 they were shares of the size: r=0.05 of then is "
-                           "rounding=0.05 (docs/shapes.md)", FutureWarning, "potential_particles", 0)
+    warnings.warn_explicit(
+        "r and R of shapes are lengths; until version 0.1 they were shares of the size: r=0.05 of then is "
+        "rounding=0.05 (docs/shapes.md)", FutureWarning, "potential_particles", 0)

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes in files: saved whole or not at all, and a sentence for one that YADE cannot load since another YADE saved it.
 
-YADE's own message is that of its reader ("input stream error", "unsupported version", even a lack of memory). Which Boost wrote a file stands
-at its beginning, and each Debian has one of its own, so that another YADE can mostly be told by it.
+YADE's own message is that of its reader ("input stream error", "unsupported version", even a lack of memory). Which
+Boost wrote a file stands at its beginning, and each Debian has one of its own, so that another YADE can mostly be told
+by it.
 """
 import bz2
 import errno
@@ -38,14 +39,15 @@ def archive_version(path):
 
 
 def save(file):
-    """O.save(file), but for a disk that is full, or a process that ends meanwhile: the file is the whole scene, or what it was before with an OSError.
+    """O.save(file), but for a disk that is full, or a process that ends meanwhile: the file is the whole scene, or what
+    it was before with an OSError.
 
     YADE's own O.save begins by emptying the file, and does not notice all that could not be written.
     """
     import yade
     with written(file) as out, tempfile.TemporaryDirectory() as folder:
-        # YADE tells the format by the end of the name. Into a pipe, since what it writes to a file it does not check, and of its binary format
-        # nobody could see afterwards whether it is whole.
+        # YADE tells the format by the end of the name. Into a pipe, since what it writes to a file it does not check,
+        # and of its binary format nobody could see afterwards whether it is whole.
         pipe = os.path.join(folder, os.path.basename(os.fspath(file)))
         os.mkfifo(pipe)
         # Open on this side, too, so that nobody waits for the other end.
@@ -54,7 +56,8 @@ def save(file):
         begin = os.open(pipe, os.O_WRONLY)
         try:
             # What has no room is read all the same: Boost's filters never end where nothing can be written.
-            copying = subprocess.Popen(["sh", "-c", "cat || { cat >/dev/null; false; }"], stdin=source, stdout=out, stderr=subprocess.PIPE, restore_signals=False, text=True, errors="replace")
+            copying = subprocess.Popen(["sh", "-c", "cat || { cat >/dev/null; false; }"], stdin=source, stdout=out,
+                                       stderr=subprocess.PIPE, restore_signals=False, text=True, errors="replace")
         except BaseException:
             os.close(begin)
             raise
@@ -88,6 +91,7 @@ def guard(yade, own_version, running):
                 raise
             raise RuntimeError(
                 f"{file} was saved by another YADE (archive version {found}; YADE {running} reads {own_version}): load it there, set "
-                f"O.engines = [], save as .xml.bz2, and set the engines anew here (docs/yade_versions.md): {error!r}") from error
+                f"O.engines = [], save as .xml.bz2, and set the engines anew here (docs/yade_versions.md): {error!r}"
+            ) from error
 
     yade.wrapper.Omega.load = loading

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A potential particle that waits to become bodies: its definition, its mass properties, and how it stands in its builder's frame."""
+"""A potential particle that waits to become bodies: its definition, its mass properties, and how it stands in its
+builder's frame.
+"""
 import dataclasses
 import math
 import typing
@@ -10,14 +12,18 @@ volumes = {}
 
 
 def definition(particle):
-    """A number of 64 bits by which the definition of a ConicPotentialParticle is known; the definitions themselves would fill the memory."""
+    """A number of 64 bits by which the definition of a ConicPotentialParticle is known; the definitions themselves
+    would fill the memory.
+    """
     return hash((tuple(particle.planes), particle.r, particle.k, particle.R))
 
 
 class Fit(typing.NamedTuple):
     """How near a particle comes to the surface that it was made from."""
 
-    largest: float  #: distance of a sample of the surface from that of the particle, to first order, over the diameter of the ball of the surface's volume
+    #: Distance of a sample of the surface from that of the particle, to first order, over the diameter of the ball of
+    #: the surface's volume.
+    largest: float
     mean: float  #: the root of the mean of its square
     volume: float  #: of the surface, length^3
 
@@ -26,9 +32,9 @@ class Fit(typing.NamedTuple):
 class Shape:
     """One particle, validated by the library. Immutable; one shape serves any number of bodies.
 
-    With <t> = max(t, 0) its surface is (1-k)/r^2 sum <a x + b y + c z - d>^2 + k/R^2 |x|^2 = 1 in its principal frame: the origin is the
-    centroid and the axes are principal axes of inertia, as YADE wants the frame of a body. `centroid` and
-    `orientation` say where this frame lies in that of the builder (the planes, points or file that a script gave):
+    With <t> = max(t, 0) its surface is (1-k)/r^2 sum <a x + b y + c z - d>^2 + k/R^2 |x|^2 = 1 in its principal frame:
+    the origin is the centroid and the axes are principal axes of inertia, as YADE wants the frame of a body. `centroid`
+    and `orientation` say where this frame lies in that of the builder (the planes, points or file that a script gave):
     x_builder = centroid + orientation x. Lengths are in the script's unit.
     """
 
@@ -48,8 +54,9 @@ class Shape:
     def __repr__(self):
         """One line; the planes and the rest are attributes."""
         off = "" if self.fit is None else f", off its surface by {self.fit.largest:.2g} of its diameter at most, {self.fit.mean:.2g} in the mean"
-        return (f"<Shape {self.name}: {len(self.planes)} planes, r={self.r:.3g}, k={self.k:.3g}, R={self.R:.3g}, volume {self.volume:.4g}, "
-                f"bounding radius {self.bounding_radius:.3g}{off}>")
+        return (
+            f"<Shape {self.name}: {len(self.planes)} planes, r={self.r:.3g}, k={self.k:.3g}, R={self.R:.3g}, volume {self.volume:.4g}, "
+            f"bounding radius {self.bounding_radius:.3g}{off}>")
 
     @property
     def equivalent_diameter(self):

@@ -6,7 +6,8 @@
 
 Every function returns a Shape. What `rounding`, `k`, `r` and `R` do: docs/shapes.md. In short:
 
-    rounding  0 to 0.5. How far edges and corners are rounded: r as a share of the *size* of the sharp shape, the diameter of the largest ball that fits in it.
+    rounding  0 to 0.5. How far edges and corners are rounded: r as a share of the *size* of the sharp shape, the
+              diameter of the largest ball that fits in it.
     r         the same as a length, in its place. Faces stay where they are.
     k         0 <= k <= 1. 0: flat faces; 1: a sphere of radius R; between, faces bulge by about r k/2.
     R         radius of the shadow sphere, a length; by default the distance from the centroid to the farthest corner.
@@ -27,15 +28,19 @@ from .rounding import ROUNDING, SPHERICITY, Rounding
 from .shape import Fit, Shape
 from .voxels import from_voxels, voxel_image
 
-__all__ = ["Fit", "Shape", "clump_from_mesh", "cuboid", "cylinder", "from_mesh", "from_planes", "from_vertices", "from_voxels", "platonic_solid",
-           "prism", "random_rock", "sphere", "voxel_image"]
+__all__ = [
+    "Fit", "Shape", "clump_from_mesh", "cuboid", "cylinder", "from_mesh", "from_planes", "from_vertices", "from_voxels",
+    "platonic_solid", "prism", "random_rock", "sphere", "voxel_image"
+]
 
 
 def from_planes(planes, rounding=ROUNDING, k=SPHERICITY, R=None, name="planes", *, r=None):
-    """Of half-spaces: rows (a, b, c, h), a x + b y + c z <= h inside, (a, b, c) of any length. Faces are where these planes are.
+    """Of half-spaces: rows (a, b, c, h), a x + b y + c z <= h inside, (a, b, c) of any length. Faces are where these
+    planes are.
 
-    That is, the offsets of the particle are reduced so that its surface, not its core, reaches h. Planes that make no face are left
-    out. Planes that enclose no volume are refused for every k: with k > 0 the sphere of radius R/sqrt(k) alone would end the shape.
+    That is, the offsets of the particle are reduced so that its surface, not its core, reaches h. Planes that make no
+    face are left out. Planes that enclose no volume are refused for every k: with k > 0 the sphere of radius R/sqrt(k)
+    alone would end the shape.
     """
     given = rows(planes, 4, "planes", "the four numbers a, b, c, h")
     if len(given) == 0:
@@ -46,36 +51,42 @@ def from_planes(planes, rounding=ROUNDING, k=SPHERICITY, R=None, name="planes", 
 def from_vertices(points, rounding=None, k=SPHERICITY, R=None, name="vertices", planes=None, error=None, *, r=None):
     """Of the convex hull of points (x, y, z), rounded inwards: no part lies outside the hull.
 
-    planes=N, error=e: few planes that keep the volume of the hull, as from_mesh has them; r is chosen then, if neither it nor rounding is given.
+    planes=N, error=e: few planes that keep the volume of the hull, as from_mesh has them; r is chosen then, if neither
+    it nor rounding is given.
     """
     points = bearable(rows(points, 3, "points", "the three numbers x, y, z"), "points")
     if planes is None and error is None:
         return _rounded(Polyhedron.of_points(points), Rounding(rounding, k, r, R), name)
     hull = Polyhedron.of_points(points)
     samples = np.concatenate([hull.corners, hull.corners[hull.triangles].mean(1)])
-    return fitting.warn_of_volume(fitting.of_surface(hull, samples, hull.volume, Rounding(rounding, k, r, R), name, planes, error), name)
+    return fitting.warn_of_volume(
+        fitting.of_surface(hull, samples, hull.volume, Rounding(rounding, k, r, R), name, planes, error), name)
 
 
 def sphere(radius, name="sphere"):
     """A sphere about the origin: k = 1."""
     R = positive(radius, "radius")
     volume = 4.0 / 3.0 * math.pi * R**3
-    return Shape(planes=(), r=0.0, k=1.0, R=R, volume=volume, inertia=(0.4 * volume * R**2,) * 3, error=0.0, centroid=(0.0, 0.0, 0.0),
-                 orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=R, name=name)
+    return Shape(planes=(), r=0.0, k=1.0, R=R, volume=volume, inertia=(0.4 * volume * R**2, ) * 3, error=0.0,
+                 centroid=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=R, name=name)
 
 
 def cuboid(edges=(1.0, 1.0, 1.0), rounding=ROUNDING, k=SPHERICITY, R=None, name="cuboid", *, r=None):
     """A cuboid about the origin with these edge lengths along x, y, z."""
     half = [0.5 * positive(edge, "edges") for edge in vector(edges, "edges")]
-    return from_planes([(*sign * axis, h) for axis, h in zip(np.eye(3), half) for sign in (1.0, -1.0)], rounding, k, R, name, r=r)
+    return from_planes([(*sign * axis, h) for axis, h in zip(np.eye(3), half) for sign in (1.0, -1.0)], rounding, k, R,
+                       name, r=r)
 
 
-def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=ROUNDING, k=SPHERICITY, R=None, name="prism", *, r=None):
-    """A regular prism along z, its heights from -height/2 to height/2; `radius` is that of the circle within its section.
+def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=ROUNDING, k=SPHERICITY, R=None, name="prism", *,
+          r=None):
+    """A regular prism along z, its heights from -height/2 to height/2; `radius` is that of the circle within its
+    section.
 
     With `top_radius`, that at the upper end, a frustum; 0 makes a pyramid. The first side faces x.
     """
-    sides, radius, height = whole(sides, 3, MOST_PLANES - 2, "sides"), positive(radius, "radius"), positive(height, "height")
+    sides, radius, height = whole(sides, 3, MOST_PLANES - 2, "sides"), positive(radius,
+                                                                                "radius"), positive(height, "height")
     top = radius if top_radius is None else within(top_radius, 0.0, math.inf, "top_radius")
     return _rounded(Polyhedron.prism(sides, radius, top, height), Rounding(rounding, k, r, R), name)
 
@@ -95,4 +106,3 @@ def platonic_solid(faces, edge=1.0, rounding=ROUNDING, k=SPHERICITY, R=None, nam
 
 def _rounded(polyhedron, rounding, name):
     return polyhedron.rounded(*rounding.lengths(polyhedron.size), name)
-

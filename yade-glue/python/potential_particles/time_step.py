@@ -1,22 +1,26 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The largest time step with which contacts act as springs and not as explosions.
 
-Leapfrog is stable for dt < 2/omega, omega the highest circular frequency. A contact with stiffness K_c (3, 3) moves body b at the arm
-x by B u, u = (displacement, turn), B = [1, -x cross]. Since |B_1 u_1 - B_2 u_2|^2 <= 2 |B_1 u_1|^2 + 2 |B_2 u_2|^2, the
-stiffness of all contacts is at most twice that of each body alone, held by its own contacts, and with M_b of mass and inertia
+Leapfrog is stable for dt < 2/omega, omega the highest circular frequency. A contact with stiffness K_c (3, 3) moves
+body b at the arm x by B u, u = (displacement, turn), B = [1, -x cross]. Since |B_1 u_1 - B_2 u_2|^2 <= 2 |B_1 u_1|^2 +
+2 |B_2 u_2|^2, the stiffness of all contacts is at most twice that of each body alone, held by its own contacts, and
+with M_b of mass and inertia
 
     omega^2 <= 2 max over bodies of the largest eigenvalue of M_b^-1 sum over its contacts B^T K_c B.
 
-A new contact at the point x holds against the turn that moves x most: of B^T B the eigenvalue 1/m + l, l the larger root of l^2 - t l + p = 0,
+A new contact at the point x holds against the turn that moves x most: of B^T B the eigenvalue 1/m + l, l the larger
+    root of l^2 - t l + p = 0,
 
     t = sum (|x|^2 - x_i^2) / I_i,    p = |x|^2 sum x_i^2 I_i / (I_1 I_2 I_3)    (principal axes),
 
 which is largest at a corner of the box of the body, since it is convex in x, and at most |x|^2 / min I. A contact
-patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it, J the polar moment
-of the patch or, where there is one, of the bond. So does the point of a contact of flat faces, which moves as they turn (rolling.py).
+patch holds against turning as well: its stiffness has a part for turns alone, K J across the normal and k_s J about it,
+J the polar moment of the patch or, where there is one, of the bond. So does the point of a contact of flat faces, which
+moves as they turn (rolling.py).
 
-Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z), which is taken into
-account, omega with three times the stiffness of patches against tilting, as their dashpots stand at the edges; for others safety leaves room, below about half of the critical damping.
+Dashpots lower the limit. Those of joints, of the ratio z to the critical one, to dt < 2/omega (sqrt(1 + z^2) - z),
+which is taken into account, omega with three times the stiffness of patches against tilting, as their dashpots stand at
+the edges; for others safety leaves room, below about half of the critical damping.
 """
 import itertools
 import math
@@ -33,14 +37,15 @@ _CORNERS = np.array(list(itertools.product((False, True), repeat=3)))
 
 
 def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
-    """A time step, s, safe for the contacts that there are, and for `contacts` new ones at the worst corner of the box of each body.
+    """A time step, s, safe for the contacts that there are, and for `contacts` new ones at the worst corner of the box
+    of each body.
 
-    stiffness: of a contact, N/m; None: from the scene's physics functor. For KnKsPhys that is Knormal, times the area of the body's largest
-    circle where the contact functor computes areas (calContactArea); for laws with springs from E and radii (FrictPhys), young times
-    the bounding radius; for ConicJointMat its stiffness per area, or that of rock.joint_engine where it is larger, times the area of the largest circle. Where a joint is
-    stiffer in shear, that counts. bodies: ids, default all; clumps move as
-    one body, with the contacts of their members. safety: share of the proved limit that is used, 0 to 1.
-    ValueError where nothing moves or no stiffness is known.
+    stiffness: of a contact, N/m; None: from the scene's physics functor. For KnKsPhys that is Knormal, times the area
+    of the body's largest circle where the contact functor computes areas (calContactArea); for laws with springs from E
+    and radii (FrictPhys), young times the bounding radius; for ConicJointMat its stiffness per area, or that of
+    rock.joint_engine where it is larger, times the area of the largest circle. Where a joint is stiffer in shear, that
+    counts. bodies: ids, default all; clumps move as one body, with the contacts of their members. safety: share of the
+    proved limit that is used, 0 to 1. ValueError where nothing moves or no stiffness is known.
     """
     import yade
     scene = yade.O
@@ -61,16 +66,20 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
 
 
 def time_stepper(period=200, contacts=3, safety=0.5):
-    """An engine that sets O.dt to critical_time_step(contacts=contacts, safety=safety) in the first step and then every `period` steps.
+    """An engine that sets O.dt to critical_time_step(contacts=contacts, safety=safety) in the first step and then every
+    `period` steps.
 
-    It is a PyRunner, to stand between the contact loop and NewtonIntegrator, and follows what a script changes: bodies, masses, stiffness, laws. While
-    nothing is free to move O.dt stays. Saved with the scene; a script that loads it imports potential_particles. A call takes about 0.1 ms for each
-    contact.
+    It is a PyRunner, to stand between the contact loop and NewtonIntegrator, and follows what a script changes: bodies,
+    masses, stiffness, laws. While nothing is free to move O.dt stays. Saved with the scene; a script that loads it
+    imports potential_particles. A call takes about 0.1 ms for each contact.
     """
     import yade
     period, contacts = whole(period, 1, LARGE, "period"), whole(contacts, 1, MANY, "contacts")
-    return yade.PyRunner(command=f"import potential_particles; potential_particles.time_step.follow(contacts={contacts}, safety={_share(safety)!r})",
-                         iterPeriod=period, initRun=True)
+    return yade.PyRunner(
+        command=f"import potential_particles; potential_particles.time_step.follow(contacts={contacts}, safety={_share(safety)!r})",
+        iterPeriod=period,
+        initRun=True,
+    )
 
 
 def follow(contacts, safety):
@@ -87,17 +96,23 @@ def _share(safety):
 
 
 def _damping_ratio(restitution):
-    """At least that of a joint with this restitution e: e < exp(-2 z) up to z = 1, and 1/(4 z^2) < e < 1/(2 z^2) beyond."""
-    return 0.0 if restitution >= 1.0 else max(-0.5 * math.log(restitution), math.sqrt(0.5 / restitution) if restitution < 0.14 else 0.0)
+    """At least that of a joint with this restitution e: e < exp(-2 z) up to z = 1, and 1/(4 z^2) < e < 1/(2 z^2)
+    beyond.
+    """
+    return 0.0 if restitution >= 1.0 else max(-0.5 * math.log(restitution),
+                                              math.sqrt(0.5 / restitution) if restitution < 0.14 else 0.0)
 
 
 def _largest_lever(body, part, radius):
-    """The largest l of a point of a body, or of a member of a clump, 1/kg: what a force of 1 N there moves it by the turn, against 1/m by the shift."""
+    """The largest l of a point of a body, or of a member of a clump, 1/kg: what a force of 1 N there moves it by the
+    turn, against 1/m by the shift.
+    """
     principal = np.array(list(body.state.inertia))
     turn, place = np.eye(3), np.zeros(3)
     if part is not body:
         back = body.state.ori.conjugate()
-        turn, place = np.array((back * part.state.ori).toRotationMatrix()), np.array(back * (part.state.pos - body.state.pos))
+        turn, place = np.array((back * part.state.ori).toRotationMatrix()), np.array(back *
+                                                                                     (part.state.pos - body.state.pos))
     most = (radius + np.linalg.norm(place)) ** 2 / principal.min()
     if not hasattr(part.shape, "boundingRadius"):
         return most
@@ -131,11 +146,15 @@ def bounding_radius(body):
     # A plain potential particle lies within the sphere R/sqrt(k), or nothing is known.
     if getattr(shape, "k", 0.0) > 0.0:
         return shape.R / math.sqrt(shape.k)
-    raise ValueError(f"body {body.id} is a {type(shape).__name__} of unknown extent: use ConicPotentialParticle, or name other bodies")
+    raise ValueError(
+        f"body {body.id} is a {type(shape).__name__} of unknown extent: use ConicPotentialParticle, or name other bodies"
+    )
 
 
 def stiffness_rule(scene, stiffness=None, in_shear=False):
-    """Stiffness of a new contact of a body along its normal, N/m, as a function of body and bounding radius; in_shear: the larger one of along and across."""
+    """Stiffness of a new contact of a body along its normal, N/m, as a function of body and bounding radius; in_shear:
+    the larger one of along and across.
+    """
     if stiffness is not None:
         return lambda body, radius: stiffness
     loop = next((one for one in scene.engines if hasattr(one, "physDispatcher")), None)
@@ -147,11 +166,13 @@ def stiffness_rule(scene, stiffness=None, in_shear=False):
         return lambda body, radius: most * (math.pi * radius**2 if with_area else 1.0)
     if type(functor).__name__ == "Ip2_ConicJointMat_ConicJointMat_ConicJointPhys":
         given = _given_to_bodies(scene, in_shear)
-        return lambda body, radius: max(_joint_stiffness(body, radius, in_shear), given.get(body.id, 0.0)) * math.pi * radius**2
+        return lambda body, radius: max(_joint_stiffness(body, radius, in_shear), given.get(body.id, 0.0)
+                                        ) * math.pi * radius**2
     if functor is not None and type(functor).__name__.startswith("Ip2_FrictMat_FrictMat_"):
         return lambda body, radius: (positive(body.mat.young, f"young of the material of body {body.id}") * radius
                                      * (max(1.0, body.mat.poisson) if in_shear else 1.0))
-    raise ValueError("the scene has no physics functor with a known stiffness: set O.engines first, or give stiffness in N/m")
+    raise ValueError(
+        "the scene has no physics functor with a known stiffness: set O.engines first, or give stiffness in N/m")
 
 
 def _joint_stiffness(body, radius, in_shear):
@@ -180,7 +201,8 @@ def _of_contact(scene, contact):
     if not hasattr(physics, "twistStiffness"):
         return geometry.normal, geometry.contactPoint, physics.kn, physics.ks, 0.0, 0.0
     # Dashpots at the edges of a patch resist tilting as three times its springs.
-    normal, point, polar_moment = geometry.normal, geometry.contactPoint, geometry.polarMoment * (3.0 if physics.dampingRatio > 0.0 else 1.0)
+    normal, point, polar_moment = geometry.normal, geometry.contactPoint, geometry.polarMoment * (
+        3.0 if physics.dampingRatio > 0.0 else 1.0)
     if physics.bondArea > 0.0:
         # The contact of a bond may lie elsewhere: where the bodies overlap now.
         one = scene.bodies[contact.id1].state
@@ -195,8 +217,9 @@ def _of_moving_points(contacts):
     pressed = [row for row, one in enumerate(contacts) if one[3] > 0.0 and one[4] > 0.0]
     if pressed:
         of_contact, normals, points, forces, stiffnesses = zip(*(contacts[row] for row in pressed))
-        found[pressed] = rolling.turning_stiffness(of_contact, *(np.array([list(one) for one in given]) for given in (normals, points)),
-                                                   np.array(forces), np.array(stiffnesses))
+        found[pressed] = rolling.turning_stiffness(
+            of_contact, *(np.array([list(one) for one in given]) for given in (normals, points)), np.array(forces),
+            np.array(stiffnesses))
     return found
 
 

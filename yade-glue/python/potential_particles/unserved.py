@@ -9,7 +9,10 @@ from yade.wrapper import PotentialParticle
 from . import _glue
 
 # Which functor serves potential particles and this shape; others have none.
-REMEDIES = {first: name for name, (first, second) in _glue.served_pairs.items() if second == "PotentialParticle" != first}
+REMEDIES = {
+    first: name
+    for name, (first, second) in _glue.served_pairs.items() if second == "PotentialParticle" != first
+}
 # Of bodies that stand for a part of the scene, as on several ranks.
 _IMMATERIAL = ("Subdomain", "FluidDomainBbox")
 
@@ -48,7 +51,9 @@ def _remedy(other):
 
 
 def pairs(bodies, dispatchers):
-    """Pairs of shapes that may touch and that no dispatcher of geometry serves, with the numbers of their bodies: (pair, remedy)."""
+    """Pairs of shapes that may touch and that no dispatcher of geometry serves, with the numbers of their bodies:
+    (pair, remedy).
+    """
     found, present = [], groups(bodies)
     for i, later in enumerate(present):
         for earlier in present[:i + 1]:

@@ -25,19 +25,26 @@ class Grains(list):
         """One line; the placements are its items."""
         if not self:
             return f"<Grains: none, {len(self.left_out)} labels left out>"
-        planes, largest, mean = (np.array(column) for column in zip(*((len(one.shape.planes), one.shape.fit.largest, one.shape.fit.mean) for one in self)))
-        return (f"<Grains: {len(self)} of {planes.min()} to {planes.max()} planes, off their surfaces by {np.median(mean):.2g} of the diameter in the mean "
-                f"(median) and {largest.max():.2g} at most, volume {sum(one.shape.volume for one in self):.4g}, {len(self.left_out)} left out>")
+        planes, largest, mean = (np.array(column)
+                                 for column in zip(*((len(one.shape.planes), one.shape.fit.largest, one.shape.fit.mean)
+                                                     for one in self)))
+        return (
+            f"<Grains: {len(self)} of {planes.min()} to {planes.max()} planes, off their surfaces by {np.median(mean):.2g} of the diameter in the mean "
+            f"(median) and {largest.max():.2g} at most, volume {sum(one.shape.volume for one in self):.4g}, {len(self.left_out)} left out>"
+        )
 
 
-def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPHERICITY, least=64, border=True, progress=True, *, r=None):
+def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPHERICITY, least=64, border=True,
+                progress=True, *, r=None):
     """One particle for each label of an image, in place: a list of Placement for add_packing.
 
-    labels: an array of whole numbers [z, y, x], as stacks of pictures are read, or a .tif file of such pages; 0 is what lies between grains. The voxel [0, 0, 0] is a cube
-    of edge `spacing` (length) with a corner at the origin. planes, error, rounding, k, r: as for shapes.from_mesh; the volume is that of the voxels. least: labels of fewer voxels
-    are left out; border=False: those that touch the border of the image as well. What is left out, or has no convex particle near to it, is said with its
-    reason in `left_out`. `shape.fit` of each has its distances from the centres of the faces of its voxels. Ctrl-C keeps what is made.
-    About 30 ms for a grain of 30 planes. ValueError for what is no such image.
+    labels: an array of whole numbers [z, y, x], as stacks of pictures are read, or a .tif file of such pages; 0 is what
+    lies between grains. The voxel [0, 0, 0] is a cube of edge `spacing` (length) with a corner at the origin. planes,
+    error, rounding, k, r: as for shapes.from_mesh; the volume is that of the voxels. least: labels of fewer voxels are
+    left out; border=False: those that touch the border of the image as well. What is left out, or has no convex
+    particle near to it, is said with its reason in `left_out`. `shape.fit` of each has its distances from the centres
+    of the faces of its voxels. Ctrl-C keeps what is made. About 30 ms for a grain of 30 planes. ValueError for what is
+    no such image.
     """
     image = voxel_image(labels)
     spacing, least = positive(spacing, "spacing"), whole(least, 8, LARGE, "least")
@@ -61,7 +68,8 @@ def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPH
             else:
                 faces = (_faces(grain) + [side.start for side in box])[:, ::-1] * spacing
                 try:
-                    shape = fitting.of_surface(Polyhedron.of_points(faces), faces, count * spacing**3, Rounding(rounding, k, r), f"grain {label}", planes, error)
+                    shape = fitting.of_surface(Polyhedron.of_points(faces), faces, count * spacing**3,
+                                               Rounding(rounding, k, r), f"grain {label}", planes, error)
                     made.append(Placement(shape, 1.0, (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)))
                 except ValueError as why:
                     left_out[label] = str(why)
@@ -90,7 +98,9 @@ def voxel_image(labels):
     if image.dtype.kind == "f" and (image == np.floor(image)).all() or image.dtype.kind == "b":
         image = image.astype(np.int64)
     if image.dtype.kind not in "iu":
-        raise ValueError(f"labels holds {image.dtype}: labels are whole numbers, one for each grain (scipy.ndimage.label makes them)")
+        raise ValueError(
+            f"labels holds {image.dtype}: labels are whole numbers, one for each grain (scipy.ndimage.label makes them)"
+        )
     if image.min() < 0 or image.max() > 2**31 - 1:
         raise ValueError(f"labels range from {image.min()} to {image.max()}: they must lie between 0 and 2147483647")
     return image.astype(np.int32, copy=False)
@@ -108,15 +118,19 @@ def _pages(file):
             pages = [np.array(page) for page in ImageSequence.Iterator(image)]
     # Of damaged files Pillow raises what its parts happen to raise: KeyError, struct.error, TypeError, MemoryError ...
     except Exception as error:
-        raise ValueError(f"{file} cannot be read as .tif: {' '.join(f'{type(error).__name__}: {error}'.split())[:100]}") from None
+        raise ValueError(
+            f"{file} cannot be read as .tif: {' '.join(f'{type(error).__name__}: {error}'.split())[:100]}") from None
     shapes = {page.shape for page in pages}
     if len(shapes) > 1 or len(pages[0].shape) != 2:
-        raise ValueError(f"{file}: its {len(pages)} pages have the shapes {sorted(shapes)}: labels are pages of one size with one number a pixel")
+        raise ValueError(
+            f"{file}: its {len(pages)} pages have the shapes {sorted(shapes)}: labels are pages of one size with one number a pixel"
+        )
     return np.stack(pages)
 
 
 def _faces(grain):
-    """Centres (n, 3) of the faces of the voxels between a grain and what is none, in voxels from the corner of its box."""
+    """Centres (n, 3) of the faces of the voxels between a grain and what is none, in voxels from the corner of its box.
+    """
     padded = np.pad(grain, 1).astype(np.int8)
     found = []
     for axis in range(3):

@@ -43,8 +43,8 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
     try {
         if (!bound)
             bound = boost::make_shared<yade::Aabb>();
-        // Not `scene`: a shape keeps the functor that first served it, also when it goes into another scene, and that one's pointer
-        // is to a scene that may be gone.
+        // Not `scene`: a shape keeps the functor that first served it, also when it goes into another scene, and that
+        // one's pointer is to a scene that may be gone.
         const yade::Scene& stepping = *Singleton<yade::Omega>::instance().getScene();
         const Box box
             = BoundWatch::guards(stepping) ? boxAsTurned(shape, at, stepping) : boxOfAnyTurn(shape, at, stepping);
@@ -52,7 +52,8 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
         bound->min = box.lower;
         bound->max = box.upper;
     } catch (...) {
-        // Out of memory. A box that is too large misses nothing; a body that has none yet is tried again when the collider runs next.
+        // Out of memory. A box that is too large misses nothing; a body that has none yet is tried again when the
+        // collider runs next.
         if (!bound)
             return;
         bound->max.setConstant(std::numeric_limits<double>::max());

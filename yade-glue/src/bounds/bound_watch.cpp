@@ -47,7 +47,8 @@ bool BoundWatch::cellHasChanged()
 
 namespace {
 
-    // What is looked at of the bodies that are some places further than this one: first the body, then what it points at.
+    // What is looked at of the bodies that are some places further than this one: first the body, then what it points
+    // at.
     void fetchBodiesAhead(const std::vector<boost::shared_ptr<yade::Body>>& bodies, std::size_t place)
     {
         constexpr std::size_t ahead = 8;
@@ -134,8 +135,8 @@ namespace {
 
 bool BoundWatch::Inside::isUnmoved(const yade::Se3r& at, const yade::Bound& bound) const
 {
-    return serial == noParticle && position == at.position && turn.coeffs() == at.orientation.coeffs() && min == bound.min
-        && max == bound.max;
+    return serial == noParticle && position == at.position && turn.coeffs() == at.orientation.coeffs()
+        && min == bound.min && max == bound.max;
 }
 
 void BoundWatch::Inside::noteUnmoved(const yade::Se3r& at, const yade::Bound& bound)

@@ -4,8 +4,8 @@
 //
 // YADE's collider need not run in each step when verletDist > 0: it widens boxes by a length and runs again when some
 // centre has moved by it. A body that turns about its centre leaves its box unseen. This engine, before the collider in
-// each step, makes the box of each potential particle, facet and box as it stands and compares it with the one that the collider has;
-// or, which is faster, knows that it has moved and turned by less than it would take.
+// each step, makes the box of each potential particle, facet and box as it stands and compares it with the one that the
+// collider has; or, which is faster, knows that it has moved and turned by less than it would take.
 //
 // Why no pair is missed: the pairs whose boxes met when the collider ran last are all among the interactions, and stay
 // there until it runs again. As long as each body lies in the box that it had then, bodies that touch are such a pair.
@@ -46,8 +46,8 @@ private:
     enum class Kind : unsigned char { other, corners, conic, potential };
     static Kind kindOf(const yade::Shape& shape);
 
-    // A particle with this serial number, posed so, lies in the box with `room` to spare on each side. That holds whatever
-    // body it is, so that nobody has to tell when bodies, shapes or boxes are changed.
+    // A particle with this serial number, posed so, lies in the box with `room` to spare on each side. That holds
+    // whatever body it is, so that nobody has to tell when bodies, shapes or boxes are changed.
     struct Inside {
         std::uint64_t serial = 0;
         const void* classOfShape = nullptr; // its virtual table

@@ -56,7 +56,8 @@ namespace {
             }
             const pp_pose pose = { { 0, 0, 0 }, { turn.w(), turn.x(), turn.y(), turn.z() } };
             if (pp_particle_box(particle->handle(), &pose, box.lower.data(), box.upper.data()) != PP_OK)
-                return { Vector3r::Constant(-radius()), Vector3r::Constant(radius()) }; // of no valid orientation: of any
+                return { Vector3r::Constant(-radius()),
+                         Vector3r::Constant(radius()) }; // of no valid orientation: of any
             const Eigen::Matrix3d world = turn.normalized().toRotationMatrix();
             for (int i = 0; i < 3; ++i) {
                 const Vector3r e = world.row(i);
@@ -101,13 +102,14 @@ Box boxAsTurned(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& a
         const Box box = outline.turned(at.orientation);
         return { at.position + box.lower, at.position + box.upper };
     }
-    // The collider's coordinate i is u.x with a row u of the matrix: the reach along u, of a body turned so that u is the
-    // first axis.
+    // The collider's coordinate i is u.x with a row u of the matrix: the reach along u, of a body turned so that u is
+    // the first axis.
     const Vector3r centre = cell->unshearTrsf * at.position;
     Box box { centre, centre };
     for (int i = 0; i < 3; ++i) {
         const Vector3r u = cell->unshearTrsf.row(i);
-        const Box along = outline.turned((Quaternionr::FromTwoVectors(u, Vector3r::UnitX()) * at.orientation).normalized());
+        const Box along = outline.turned(
+            (Quaternionr::FromTwoVectors(u, Vector3r::UnitX()) * at.orientation).normalized());
         box.lower[i] += u.norm() * along.lower[0];
         box.upper[i] += u.norm() * along.upper[0];
     }
@@ -147,7 +149,8 @@ Box boxOfCorners(const yade::Shape& shape, const yade::Se3r& at, const yade::Sce
     } else if (const StandIn* kind = standInOf(shape)) {
         const StandIn::Hull hull = kind->hullOf(kind->measuresOf(shape));
         std::for_each_n(hull.points.begin(), hull.count, add);
-        const Vector3r reach = hull.radius * (cell ? Vector3r(cell->unshearTrsf.rowwise().norm()) : Vector3r::Ones().eval());
+        const Vector3r reach = hull.radius
+            * (cell ? Vector3r(cell->unshearTrsf.rowwise().norm()) : Vector3r::Ones().eval());
         box.lower -= reach;
         box.upper += reach;
     }

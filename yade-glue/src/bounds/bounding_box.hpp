@@ -20,12 +20,13 @@ struct Box {
     double roomIn(const yade::Bound& bound) const
     {
         const double room = std::min((lower - bound.min).minCoeff(), (bound.max - upper).minCoeff());
-        return room >= 0 && lower.allFinite() && upper.allFinite() && !bound.min.hasNaN() && !bound.max.hasNaN() ? room : -1;
+        return room >= 0 && lower.allFinite() && upper.allFinite() && !bound.min.hasNaN() && !bound.max.hasNaN() ? room
+                                                                                                                 : -1;
     }
 };
 
-// Of a shape that is a PotentialParticle. Where the script gave a box (AabbMinMax), that box is turned; else the library
-// says how far the particle reaches. Any thread.
+// Of a shape that is a PotentialParticle. Where the script gave a box (AabbMinMax), that box is turned; else the
+// library says how far the particle reaches. Any thread.
 Box boxAsTurned(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& at, const yade::Scene& scene);
 
 // The same, however the body may turn about its centre.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Each field that Python shows is written on one side and read on the other: set from Python (that is, by YADE's own code) to
-// a value no other field has and read through our declaration, or, where Python may not set it, the other way round. Fields that
-// Python does not show are covered by the sizes compared at build time.
+// Each field that Python shows is written on one side and read on the other: set from Python (that is, by YADE's own
+// code) to a value no other field has and read through our declaration, or, where Python may not set it, the other way
+// round. Fields that Python does not show are covered by the sizes compared at build time.
 #include "load_check.hpp"
 
 #include "abi/dispatcher.hpp"
@@ -70,7 +70,10 @@ namespace {
         return matrix.colwise() + next<Vector3r>();
     }
     template <> std::vector<double> Values::next() { return { number(), number() }; }
-    template <> std::vector<Vector3r> Values::next() { return { next<Vector3r>(), next<Vector3r>(), next<Vector3r>() }; }
+    template <> std::vector<Vector3r> Values::next()
+    {
+        return { next<Vector3r>(), next<Vector3r>(), next<Vector3r>() };
+    }
 
     // One object, made by YADE's Python, seen through our declaration of its class.
     template <class Class> class Probe {
@@ -104,12 +107,14 @@ namespace {
         }
 
         // A shared pointer, to a new object of a class of YADE.
-        template <class Value> Probe& pointer(const char* name, const char* ofClass, boost::shared_ptr<Value> Class::*member)
+        template <class Value>
+        Probe& pointer(const char* name, const char* ofClass, boost::shared_ptr<Value> Class::*member)
         {
             const py::object given = py::import("yade.wrapper").attr(ofClass)();
             object.attr(name) = given;
             if ((seen.*member).get() != &py::extract<Value&>(given)())
-                differences.push_back(std::string(className) + "." + name + ": set from Python, not found at its declared place");
+                differences.push_back(std::string(className) + "." + name
+                                      + ": set from Python, not found at its declared place");
             return *this;
         }
 
@@ -178,7 +183,9 @@ namespace {
     void checkPrimitives(Differences& found)
     {
         Probe<yade::Sphere>(found, "Sphere").field("radius", &yade::Sphere::radius);
-        Probe<yade::Cylinder>(found, "Cylinder").field("length", &yade::Cylinder::length).field("segment", &yade::Cylinder::segment);
+        Probe<yade::Cylinder>(found, "Cylinder")
+            .field("length", &yade::Cylinder::length)
+            .field("segment", &yade::Cylinder::segment);
         Probe<yade::Box>(found, "Box").field("extents", &yade::Box::extents);
         Probe<yade::Wall>(found, "Wall").field("sense", &yade::Wall::sense).field("axis", &yade::Wall::axis);
         Probe<yade::Facet> facet(found, "Facet");
@@ -304,7 +311,8 @@ namespace {
         probe.field<std::string>("label", [](IGeomFunctor& f) -> std::string& { return f.label; });
         IGeomFunctor& builtin = probe.instance();
         const std::string first = builtin.get2DFunctorType1(), second = builtin.get2DFunctorType2();
-        if (first != "PotentialParticle" || second != "PotentialParticle" || builtin.checkOrder() != first + " " + second)
+        if (first != "PotentialParticle" || second != "PotentialParticle"
+            || builtin.checkOrder() != first + " " + second)
             found.push_back("IGeomFunctor: virtual calls on Ig2_PP_PP_ScGeom do not answer as they should");
     }
 
@@ -353,9 +361,11 @@ namespace {
 
     // A functor for two classes lies in the dispatcher's list, and in its matrix at their indices.
     template <class Dispatcher, class First, class Second>
-    void checkDispatcher(Differences& found, const char* className, const char* functor, const char* first, const char* second)
+    void checkDispatcher(Differences& found, const char* className, const char* functor, const char* first,
+                         const char* second)
     {
-        const py::object wrapper = py::import("yade.wrapper"), one = wrapper.attr(first)(), other = wrapper.attr(second)();
+        const py::object wrapper = py::import("yade.wrapper"), one = wrapper.attr(first)(),
+                         other = wrapper.attr(second)();
         py::object dispatcher = wrapper.attr(className)();
         py::list functors;
         functors.append(wrapper.attr(functor)());
@@ -363,17 +373,23 @@ namespace {
         const Dispatcher& seen = py::extract<Dispatcher&>(dispatcher)();
         const auto row = static_cast<std::size_t>(py::extract<const First&>(one)().getClassIndex());
         const auto column = static_cast<std::size_t>(py::extract<const Second&>(other)().getClassIndex());
-        const bool listed = seen.functors.size() == 1 && seen.functors[0] && seen.functors[0]->getClassName() == functor;
-        if (!listed || row >= seen.callBacks.size() || column >= seen.callBacks[row].size() || seen.callBacks[row][column] != seen.functors[0]
-            || row >= seen.callBacksInfo.size() || column >= seen.callBacksInfo[row].size() || seen.callBacksInfo[row][column] != 0)
-            found.push_back(std::string(className) + ": the functor of " + first + " and " + second + " not found at its declared place");
+        const bool listed = seen.functors.size() == 1 && seen.functors[0]
+            && seen.functors[0]->getClassName() == functor;
+        if (!listed || row >= seen.callBacks.size() || column >= seen.callBacks[row].size()
+            || seen.callBacks[row][column] != seen.functors[0] || row >= seen.callBacksInfo.size()
+            || column >= seen.callBacksInfo[row].size() || seen.callBacksInfo[row][column] != 0)
+            found.push_back(std::string(className) + ": the functor of " + first + " and " + second
+                            + " not found at its declared place");
     }
 
     void checkDispatchers(Differences& found)
     {
-        checkDispatcher<IGeomDispatcher, Shape, Shape>(found, "IGeomDispatcher", "Ig2_PP_PP_ScGeom", "PotentialParticle", "PotentialParticle");
-        checkDispatcher<IPhysDispatcher, Material, Material>(found, "IPhysDispatcher", "Ip2_FrictMat_FrictMat_KnKsPhys", "FrictMat", "FrictMat");
-        checkDispatcher<LawDispatcher, IGeom, IPhys>(found, "LawDispatcher", "Law2_SCG_KnKsPhys_KnKsLaw", "ScGeom", "KnKsPhys");
+        checkDispatcher<IGeomDispatcher, Shape, Shape>(found, "IGeomDispatcher", "Ig2_PP_PP_ScGeom",
+                                                       "PotentialParticle", "PotentialParticle");
+        checkDispatcher<IPhysDispatcher, Material, Material>(found, "IPhysDispatcher", "Ip2_FrictMat_FrictMat_KnKsPhys",
+                                                             "FrictMat", "FrictMat");
+        checkDispatcher<LawDispatcher, IGeom, IPhys>(found, "LawDispatcher", "Law2_SCG_KnKsPhys_KnKsLaw", "ScGeom",
+                                                     "KnKsPhys");
     }
 
     void checkBody(Differences& found)
@@ -413,7 +429,8 @@ namespace {
             found.push_back("Scene.cell: not found at its declared place");
         if (!scene.energy || scene.energy->getClassName() != "EnergyTracker")
             found.push_back("Scene.energy: not found at its declared place");
-        if (scene.forces().getNumAllocatedThreads() != py::extract<int>(py::import("yade.wrapper").attr("Omega")().attr("numThreads"))())
+        if (scene.forces().getNumAllocatedThreads()
+            != py::extract<int>(py::import("yade.wrapper").attr("Omega")().attr("numThreads"))())
             found.push_back("Scene.forces: not found at its declared place");
         if (!scene.bodies || scene.bodies->getClassName() != "BodyContainer") {
             found.push_back("Scene.bodies: not found at its declared place");
@@ -429,7 +446,8 @@ namespace {
         }
         InteractionContainer& pairs = *scene.interactions;
         if (!pairs.linIntrs.empty() || pairs.currSize != 0 || pairs.serializeSorted || pairs.iterColliderLastRun != -1)
-            found.push_back("InteractionContainer: a new one does not look empty at linIntrs, currSize, serializeSorted, iterColliderLastRun");
+            found.push_back("InteractionContainer: a new one does not look empty at linIntrs, currSize, "
+                            "serializeSorted, iterColliderLastRun");
         const auto engine = boost::shared_ptr<Engine>(new BoundWatch);
         scene.engines.push_back(engine);
         if (scene.engineByName("BoundWatch") != engine)
@@ -441,8 +459,9 @@ namespace {
 std::vector<std::string> differencesOfLayout()
 {
     Differences found;
-    const std::array checks = { checkShape, checkPrimitives, checkState, checkGeometry, checkPhysics, checkMaterial, checkInteraction, checkFunctor,
-                                checkBound, checkEngine, checkLaws, checkDispatchers, checkBody, checkScene, checkTables };
+    const std::array checks = { checkShape,    checkPrimitives,  checkState,   checkGeometry, checkPhysics,
+                                checkMaterial, checkInteraction, checkFunctor, checkBound,    checkEngine,
+                                checkLaws,     checkDispatchers, checkBody,    checkScene,    checkTables };
     for (const auto check : checks) {
         try {
             check(found);

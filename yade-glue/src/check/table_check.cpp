@@ -41,13 +41,14 @@ namespace {
     }
 
     // overridden: slots that the derived class fills itself.
-    void compareTables(std::vector<std::string>& found, const char* name, const Factorable& derived, const Factorable& base,
-                       std::size_t words, std::initializer_list<std::size_t> overridden)
+    void compareTables(std::vector<std::string>& found, const char* name, const Factorable& derived,
+                       const Factorable& base, std::size_t words, std::initializer_list<std::size_t> overridden)
     {
         const Table own = tableOf(&derived), theirs = tableOf(&base);
         if (own.words != words || theirs.words != words) {
-            found.push_back(std::string(name) + ": virtual table of " + std::to_string(own.words) + " words, its base's "
-                            + std::to_string(theirs.words) + ", expected " + std::to_string(words) + " in both");
+            found.push_back(std::string(name) + ": virtual table of " + std::to_string(own.words)
+                            + " words, its base's " + std::to_string(theirs.words) + ", expected "
+                            + std::to_string(words) + " in both");
             return;
         }
         for (std::size_t slot = firstVirtual; slot < words; ++slot) {
@@ -60,14 +61,15 @@ namespace {
     }
 
     // A functor of ours against one of YADE that overrides the same functions: the sizes must agree.
-    template <class Base> void compareSizes(std::vector<std::string>& found, const Base& functor, const char* builtinName)
+    template <class Base>
+    void compareSizes(std::vector<std::string>& found, const Base& functor, const char* builtinName)
     {
         const py::object builtin = py::import("yade.wrapper").attr(builtinName)();
         const std::size_t ours = tableOf(&functor).words;
         const std::size_t theirs = tableOf(&py::extract<Base&>(builtin)()).words;
         if (ours == 0 || ours != theirs)
-            found.push_back(functor.getClassName() + ": virtual table of " + std::to_string(ours) + " words, " + builtinName
-                            + " has " + std::to_string(theirs));
+            found.push_back(functor.getClassName() + ": virtual table of " + std::to_string(ours) + " words, "
+                            + builtinName + " has " + std::to_string(theirs));
     }
 
 } // namespace

@@ -20,7 +20,8 @@ constexpr AnswerPath answerPaths[] = {
     { Count::spheres, "spheres", true }, // apart: so are the balls around them
     { Count::face, "face", true }, // apart: one lies beyond a face of the other
     { Count::memory, "memory", true }, // apart: what separated them in the last step still does
-    { Count::proof, "proof", false }, // apart: the solver met a proof on its way, or what it knew of the last step is carried on
+    { Count::proof, "proof",
+      false }, // apart: the solver met a proof on its way, or what it knew of the last step is carried on
     { Count::carried, "carried", false }, // touching: the contact of the last step, carried on
     { Count::warm, "warm", false }, // solved from the remembered point
     { Count::cold, "cold", false }, // solved from nothing

@@ -48,7 +48,9 @@ namespace {
         {
             requireOk(pp_contact_detect(sphere, &left, sphere, &right, nullptr, nullptr, &found));
             pp_patch patch;
-            return pp_patch_of_contact(sphere, &left, sphere, &right, &found, tolerance, 0, nullptr, &patch, nullptr, 0, nullptr) != PP_BAD_SETTING;
+            return pp_patch_of_contact(sphere, &left, sphere, &right, &found, tolerance, 0, nullptr, &patch, nullptr, 0,
+                                       nullptr)
+                != PP_BAD_SETTING;
         }
 
     private:
@@ -115,7 +117,9 @@ pp_settings ContactSettings::parsed() const
     if (!(std::isfinite(interactionDistance) && interactionDistance >= 0))
         refuse("interactionDistance", shown(interactionDistance), "give a length, or 0");
     if (patch && seesGaps())
-        refuse("patch", "True", "a patch ends where bodies come apart: rotations and interactionDistance are for laws at a point, joints have bonds of their own");
+        refuse("patch", "True",
+               "a patch ends where bodies come apart: rotations and interactionDistance are for laws at a point, "
+               "joints have bonds of their own");
     if (!(std::isfinite(unitWidth2D) && unitWidth2D > 0))
         refuse("unitWidth2D", shown(unitWidth2D), "give a positive length");
     if (!(twoDdir.allFinite() && !twoDdir.isZero(0)))

@@ -43,21 +43,25 @@ struct ContactSettings {
     template <class Visit> static void eachAttribute(Visit&& visit)
     {
         using S = ContactSettings;
-        visit("formulation", &S::formulation,
-              "'midway' (the point that minimises the larger of both potentials, as Ig2_PP_PP_ScGeom does) or 'closest' "
-              "(the deepest point of each particle in the other, paper eqs 34-43).");
+        visit(
+            "formulation", &S::formulation,
+            "'midway' (the point that minimises the larger of both potentials, as Ig2_PP_PP_ScGeom does) or 'closest' "
+            "(the deepest point of each particle in the other, paper eqs 34-43).");
         visit("backEnd", &S::backEnd,
               "'fast' (the library's own solver) or 'cone_program' (the second-order cone "
               "programs of the paper: slow, for comparison).");
         visit("tolerance", &S::tolerance, "Relative gap of the squared scale at which the solver may stop.");
-        visit("flatRegularisation", &S::flatRegularisation,
-              "Smallest sphericity that the solver takes as given; below it, the contact point on a flat face is chosen "
-              "as if k were this. Raise it (1e-4, say) when flat faces jitter.");
+        visit(
+            "flatRegularisation", &S::flatRegularisation,
+            "Smallest sphericity that the solver takes as given; below it, the contact point on a flat face is chosen "
+            "as if k were this. Raise it (1e-4, say) when flat faces jitter.");
         visit("carryTolerance", &S::carryTolerance,
-              "To what part of the smaller particle's size the point of a contact has to be known that is carried on from the "
+              "To what part of the smaller particle's size the point of a contact has to be known that is carried on "
+              "from the "
               "last step without a solution from the planes; 0: every contact is solved in every step.");
         visit("patch", &S::patch,
-              "Whether the contact patch decides: contactPoint is then its centre of pressure, normal the direction of the force of its "
+              "Whether the contact patch decides: contactPoint is then its centre of pressure, normal the direction of "
+              "the force of its "
               "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.");
         visit("patchTolerance", &S::patchTolerance, "Relative error allowed in the patch's force and area.");
         visit("calContactArea", &S::calContactArea,
@@ -73,10 +77,12 @@ struct ContactSettings {
               "Accepted for scripts written for Ig2_PP_PP_ScGeom and not used. See tolerance.");
         visit("measureTime", &S::measureTime, "Whether the time inside this functor is added up in seconds.");
         visit("interactionDistance", &S::interactionDistance,
-              "Particles whose gap along the normal is at most this interact, with penetrationDepth = -gap: for laws that hold them together. The collider "
+              "Particles whose gap along the normal is at most this interact, with penetrationDepth = -gap: for laws "
+              "that hold them together. The collider "
               "must see such pairs (verletDist of half of it, with BoundWatch).");
         visit("rotations", &S::rotations,
-              "Whether the geometry is YADE's ScGeom6D, with bending and twist, for laws that ask for it (Law2_ScGeom6D_...); penetrationDepth "
+              "Whether the geometry is YADE's ScGeom6D, with bending and twist, for laws that ask for it "
+              "(Law2_ScGeom6D_...); penetrationDepth "
               "is then -gap of particles that have come apart. Pairs are solved from nothing in each step.");
     }
 };

@@ -19,12 +19,12 @@ namespace potential_particles {
 // Of a body with a Facet, in world axes from `origin`. Throws std::invalid_argument when it has no three vertices.
 BoundaryPoints verticesOf(const yade::Shape& facet, const yade::State& state, const yade::Vector3r& origin);
 
-// The facets around each vertex, from where all of them were when the scene's number of bodies changed last. What they may
-// have done since is for the caller to see: this only says whom to look at.
+// The facets around each vertex, from where all of them were when the scene's number of bodies changed last. What they
+// may have done since is for the caller to see: this only says whom to look at.
 class FacetMesh {
 public:
-    // Call in each step before around(), from any thread: the first one of a step looks whether the mesh is still that of the
-    // scene, and the others wait for it.
+    // Call in each step before around(), from any thread: the first one of a step looks whether the mesh is still that
+    // of the scene, and the others wait for it.
     void refresh(const yade::Scene& scene);
 
     // Ids of the facets that have vertex i of this one, itself among them; in ascending order.

@@ -13,7 +13,8 @@ namespace {
         const auto& [x, y, z] = pose.position;
         const auto& [qw, qx, qy, qz] = pose.orientation;
         std::snprintf(buffer, sizeof buffer,
-                      "position (%.17g, %.17g, %.17g) orientation (w %.17g, x %.17g, y %.17g, z %.17g)", x, y, z, qw, qx, qy, qz);
+                      "position (%.17g, %.17g, %.17g) orientation (w %.17g, x %.17g, y %.17g, z %.17g)", x, y, z, qw,
+                      qx, qy, qz);
         return buffer;
     }
 }

@@ -44,8 +44,8 @@ namespace {
         return true;
     }
 
-    // How far from `point`, outside of a particle, its surface lies along a unit vector into it; not a number if it is missed. From points
-    // within, further and further in, back to where the line leaves it.
+    // How far from `point`, outside of a particle, its surface lies along a unit vector into it; not a number if it is
+    // missed. From points within, further and further in, back to where the line leaves it.
     double gapBefore(const Particle& particle, const pp_pose& pose, const Vector3r& point, const Vector3r& inwards)
     {
         for (double way = 1e-3 * particle.boundingRadius(); way < 4 * particle.boundingRadius(); way *= 2) {
@@ -183,7 +183,9 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                 }
             }
         }
-        Pair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known };
+        Pair pair {
+            { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known
+        };
         return answer(pair);
     } catch (const std::exception& error) {
         fail(*interaction, state1, state2, shift2, error.what());
@@ -194,7 +196,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
 }
 
 bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2,
-                                          PairInStep& pairInStep, const boost::shared_ptr<Interaction>& interaction) noexcept
+                                          PairInStep& pairInStep,
+                                          const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     const bool real = interaction->hasGeomAndPhys();
     const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
@@ -212,7 +215,13 @@ bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, Bod
             counts.add(Count::motion);
             return false;
         }
-        Pair pair { { state1, state2, shift2, false, interaction, counts, settings, real }, cm1, cm2, &body1, &body2, known, true };
+        Pair pair { { state1, state2, shift2, false, interaction, counts, settings, real },
+                    cm1,
+                    cm2,
+                    &body1,
+                    &body2,
+                    known,
+                    true };
         return answer(pair);
     } catch (const std::exception& error) {
         fail(*interaction, state1, state2, shift2, error.what());
@@ -243,7 +252,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::answer(Pair& pair)
 // body 1 of the interaction is body 1 of the arguments.
 bool Ig2_ConicPP_ConicPP_ScGeom::goReverse(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
                                            const State& state1, const State& state2, const Vector3r& shift2,
-                                           const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
+                                           const bool& force,
+                                           const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     return go(cm1, cm2, state1, state2, shift2, force, interaction);
 }
@@ -278,8 +288,10 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
 
         if (found.kind == PP_OVERLAPPING) {
             if (Vector3r normal; given.patch && pair.prescribesNormal(normal)) {
-                fail(pair, "patch = True and a shape with fixedNormal = True: a patch has the normal of its pressure; set fixedNormal = False, or "
-                           "patch = False for a point along boundaryNormal");
+                fail(pair,
+                     "patch = True and a shape with fixedNormal = True: a patch has the normal of its pressure; set "
+                     "fixedNormal = False, or "
+                     "patch = False for a point along boundaryNormal");
                 return keep(pair);
             }
             pair.counts.add(Count::overlapping);
@@ -294,21 +306,23 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
     return leaveApart(pair);
 }
 
-// A pair that does not touch, for laws that ask how far it is apart: solved to the end. Where no gap along the normal is found, it is no
-// pair that a law could hold.
+// A pair that does not touch, for laws that ask how far it is apart: solved to the end. Where no gap along the normal
+// is found, it is no pair that a law could hold.
 bool Ig2_ConicPP_ConicPP_ScGeom::acrossGap(Pair& pair)
 {
     pp_settings settings = pair.settings.library;
     settings.solve_separated = 1;
     const pp_pose pose1 = pair.pose1(), pose2 = pair.pose2();
     pp_contact found;
-    if (const pp_status status = pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &settings, nullptr, &found);
+    if (const pp_status status = pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2,
+                                                   &settings, nullptr, &found);
         status != PP_OK) {
         fail(pair, pp_status_message(status));
         return keep(pair);
     }
     const Vector3r point(found.point), normal(found.normal);
-    const double gap = gapBefore(*pair.particle1, pose1, point, -normal) + gapBefore(*pair.particle2, pose2, point, normal);
+    const double gap = gapBefore(*pair.particle1, pose1, point, -normal)
+        + gapBefore(*pair.particle2, pose2, point, normal);
     if (!std::isfinite(gap) || (!pair.real && gap > pair.settings.given.interactionDistance)) {
         pair.noteApart(0);
         return leaveApart(pair);
@@ -346,7 +360,8 @@ pp_status Ig2_ConicPP_ConicPP_ScGeom::detect(Pair& pair, pp_contact& found)
     const pp_pose pose1 = pair.pose1(), pose2 = pair.pose2();
     pp_pair_state* const state = pair.state();
     const auto ask = [&] {
-        return pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2, &pair.settings.library, state, &found);
+        return pp_contact_detect(pair.particle1->handle(), &pose1, pair.particle2->handle(), &pose2,
+                                 &pair.settings.library, state, &found);
     };
     return fromNothingIfNew(ask(), found, pair.real, state, ask);
 }
@@ -363,9 +378,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
     Vector3r normal(found.normal);
     if (pair.settings.given.patch) {
         pp_patch patch;
-        const pp_status status
-            = pp_patch_of_contact(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
-                                  pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
+        const pp_status status = pp_patch_of_contact(body1.particle->handle(), &body1.pose, body2.particle->handle(),
+                                                     &body2.pose, &found, pair.settings.given.patchTolerance,
+                                                     tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
         if (fillPatch(pair, status, patch, Vector3r::Zero(), 1.0)) {
             fillPhysics(pair, body1, body2, found, patch.area);
             return;
@@ -391,8 +406,8 @@ void Ig2_ConicPP_ConicPP_ScGeom::fill(Pair& pair, pp_contact& found)
 
 bool Ig2_ConicPP_ConicPP_ScGeom::tracksEnergy() const { return scene && scene->trackEnergy; }
 
-bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const Vector3r& origin,
-                                           double sense)
+bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch,
+                                           const Vector3r& origin, double sense)
 {
     const std::optional<PatchInStep> here = PatchInStep::of(status, patch);
     if (!here) {
@@ -413,11 +428,12 @@ bool Ig2_ConicPP_ConicPP_ScGeom::fillPatch(PairInScene& pair, pp_status status, 
     return true;
 }
 
-double Ig2_ConicPP_ConicPP_ScGeom::areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found)
+double Ig2_ConicPP_ConicPP_ScGeom::areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2,
+                                               const pp_contact& found)
 {
     double area;
-    const pp_status status = pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(), &body2.pose, &found,
-                                             pair.settings.given.areaTolerance, &area);
+    const pp_status status = pp_contact_area(body1.particle->handle(), &body1.pose, body2.particle->handle(),
+                                             &body2.pose, &found, pair.settings.given.areaTolerance, &area);
     // Bodies that overlap by nothing but rounding: no point lies in both, and no force comes from such a contact.
     if (status == PP_BAD_POINT)
         area = 0;
@@ -427,8 +443,8 @@ double Ig2_ConicPP_ConicPP_ScGeom::areaAtPoint(const PairInScene& pair, const Po
     return area;
 }
 
-void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found,
-                                             double patchArea)
+void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2,
+                                             const pp_contact& found, double patchArea)
 {
     const ContactSettings& settings = pair.settings.given;
     if (settings.patch && patchArea == 0 && pair.own) {
@@ -477,7 +493,8 @@ void Ig2_ConicPP_ConicPP_ScGeom::fail(const Interaction& interaction, const Stat
 {
     try {
         counters.ofThisThread().add(Count::failures);
-        failures.add({ interaction.id1, interaction.id2, poseOf(state1, Vector3r::Zero()), poseOf(state2, shift2), why });
+        failures.add(
+            { interaction.id1, interaction.id2, poseOf(state1, Vector3r::Zero()), poseOf(state2, shift2), why });
     } catch (...) {
         // There may be no memory for a copy of the text, nor for a first row of counters.
     }

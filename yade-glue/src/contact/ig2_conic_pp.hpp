@@ -27,8 +27,8 @@ class Step;
 class BodyInStep;
 struct PairInStep;
 
-// For two ConicPotentialParticle shapes and, in the classes derived from it, for any two shapes that are particles. go()
-// runs in many threads at once, without the lock of Python: it calls no Python, and no exception leaves it.
+// For two ConicPotentialParticle shapes and, in the classes derived from it, for any two shapes that are particles.
+// go() runs in many threads at once, without the lock of Python: it calls no Python, and no exception leaves it.
 class Ig2_ConicPP_ConicPP_ScGeom : public yade::IGeomFunctor {
 public:
     Ig2_ConicPP_ConicPP_ScGeom();
@@ -46,7 +46,8 @@ public:
                    const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
                    const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 
-    // The same in a loop of our own outside of periodic cells, which has gathered the bodies; with flat boundaries theirs.
+    // The same in a loop of our own outside of periodic cells, which has gathered the bodies; with flat boundaries
+    // theirs.
     bool goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
                   const boost::shared_ptr<yade::Interaction>& interaction) noexcept;
     // Where this thread counts.
@@ -60,15 +61,17 @@ protected:
         pp_pose pose;
     };
 
-    // Each ends the step for a pair; true if YADE is to go on with it. The first for one that does not touch, the second for
-    // one of which that is not known.
+    // Each ends the step for a pair; true if YADE is to go on with it. The first for one that does not touch, the
+    // second for one of which that is not known.
     bool leaveApart(PairInScene& pair);
     bool keep(PairInScene& pair);
     // Area and points for KnKsPhys, if the pair has it. patchArea: 0 for a contact at its point.
-    void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found, double patchArea);
-    // Point, normal and overlap of the patch in the place of those of the point; false where there is none. `origin`: of its
-    // positions; `sense`: -1 if its force, which is on its own second body, is on body 1.
-    bool fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const yade::Vector3r& origin, double sense);
+    void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found,
+                     double patchArea);
+    // Point, normal and overlap of the patch in the place of those of the point; false where there is none. `origin`:
+    // of its positions; `sense`: -1 if its force, which is on its own second body, is on body 1.
+    bool fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const yade::Vector3r& origin,
+                   double sense);
     static double areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found);
     bool tracksEnergy() const;
     void fail(const PairInScene& pair, const std::string& why);

@@ -114,13 +114,16 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     count("patchFallbacks", Count::patchFallbacks,
           "Contacts that were given by their point although the patch was asked for: none was found.");
     count("extended", Count::extended, "Pairs answered in extended precision, because doubles did not settle them.");
-    count("failures", Count::failures, "Failed calls: no answer by the back end asked for, or no valid particle or pose.");
+    count("failures", Count::failures,
+          "Failed calls: no answer by the back end asked for, or no valid particle or pose.");
     registered
-        .add_property("answers", &Functor::pyAnswers,
-                      "How many pairs were answered in which way: without a solve, apart because their 'motion' was less than "
-                      "the distance that was between them, by bounding 'spheres', by a 'face', or by 'memory' of what "
-                      "separated them before; apart by a 'proof' that the solver met; 'carried' on from the contact of the last step; solved "
-                      "from the remembered point ('warm') or from nothing ('cold'); or by the 'cone_program' back end.")
+        .add_property(
+            "answers", &Functor::pyAnswers,
+            "How many pairs were answered in which way: without a solve, apart because their 'motion' was less than "
+            "the distance that was between them, by bounding 'spheres', by a 'face', or by 'memory' of what "
+            "separated them before; apart by a 'proof' that the solver met; 'carried' on from the contact of the last "
+            "step; solved "
+            "from the remembered point ('warm') or from nothing ('cold'); or by the 'cone_program' back end.")
         .add_property("rejected", &Functor::pyRejected, "Pairs proved separated without solving to the end.")
         .add_property("solved", &Functor::pySolved, "Pairs solved to the end; those carried on are not.")
         .add_property("skippedShare", &Functor::pySkippedShare,
@@ -203,7 +206,10 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
     ContactSettings::eachAttribute([&](const char* attribute, auto member, const char*) {
         const std::string name(attribute);
-        const unsigned since = name == "interactionDistance" || name == "rotations" ? 3 : name == "patch" || name == "patchTolerance" ? 2 : name == "carryTolerance" ? 1 : 0;
+        const unsigned since = name == "interactionDistance" || name == "rotations" ? 3
+            : name == "patch" || name == "patchTolerance"                           ? 2
+            : name == "carryTolerance"                                              ? 1
+                                                                                    : 0;
         if (version >= since)
             archiveAttribute(archive, attribute, written.*member);
     });

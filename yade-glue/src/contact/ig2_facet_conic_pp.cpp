@@ -19,13 +19,16 @@ using yade::Vector3r;
 namespace {
 
     // `state`: of the pair with this triangle, or null.
-    pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state, pp_flat_contact& found)
-    {
-        const pp_pose turn = pair.turn();
-        return pp_contact_triangle(pair.particle->handle(), &turn, numbersOf(vertices), &pair.settings.library, state, &found);
+pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state,
+                      pp_flat_contact& found)
+{
+    const pp_pose turn = pair.turn();
+    return pp_contact_triangle(pair.particle->handle(), &turn, numbersOf(vertices), &pair.settings.library, state,
+                               &found);
     }
 
-    TriangleContact contactOf(const FlatPair& pair, const BoundaryPoints& vertices, const pp_flat_contact& found, int id)
+    TriangleContact contactOf(const FlatPair& pair, const BoundaryPoints& vertices, const pp_flat_contact& found,
+                              int id)
     {
         return { vertices, found, id, onSeam * pair.particle->boundingRadius() };
     }
@@ -40,9 +43,9 @@ namespace {
         return std::clamp((contact.point() - contact.corners[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
     }
 
-    // Whether S falls from the least point of a facet, on a seam, into the neighbour that has that point as well. By convexity it
-    // does if it falls towards a vertex, and if it falls the neighbour has a lower one, off the seam; if it rises towards all, that
-    // point is the neighbour's least too.
+    // Whether S falls from the least point of a facet, on a seam, into the neighbour that has that point as well. By
+    // convexity it does if it falls towards a vertex, and if it falls the neighbour has a lower one, off the seam; if
+    // it rises towards all, that point is the neighbour's least too.
     enum class Slope { falls, rises, unclear };
 
     Slope slopeInto(const BoundaryPoints& neighbour, const TriangleContact& own)
@@ -69,7 +72,9 @@ namespace {
     const Body* facetLike(const Body& own, int id, const yade::Scene& scene)
     {
         const Body* const body = scene.bodies->body[static_cast<std::size_t>(id)].get();
-        return body && body->groupMask == own.groupMask && dynamic_cast<const yade::Facet*>(body->shape.get()) ? body : nullptr;
+        return body && body->groupMask == own.groupMask && dynamic_cast<const yade::Facet*>(body->shape.get())
+            ? body
+            : nullptr;
     }
 
     // YADE keeps an interaction with one of its bodies.
@@ -122,15 +127,16 @@ pp_status Ig2_Facet_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints&
 }
 
 // The particle stays on the side on which the contact began.
-pp_status Ig2_Facet_ConicPP_ScGeom::findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
-                                              pp_patch& patch) const
+pp_status Ig2_Facet_ConicPP_ScGeom::findPatch(const FlatPair& pair, const BoundaryPoints& points,
+                                              const pp_flat_contact& found, pp_patch& patch) const
 {
     const Vector3r front = (points[1] - points[0]).cross(points[2] - points[0]);
     const bool lasts = pair.real && !(pair.geom->penetrationDepth < 0);
     const Vector3r towardsParticle = lasts ? pair.lastNormal() : Vector3r(-Vector3r(found.normal));
     const pp_pose turn = pair.turn();
-    return pp_patch_on_triangle(pair.particle->handle(), &turn, numbersOf(points), towardsParticle.dot(front) > 0, &found,
-                                pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch, nullptr, 0, nullptr);
+    return pp_patch_on_triangle(pair.particle->handle(), &turn, numbersOf(points), towardsParticle.dot(front) > 0,
+                                &found, pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch,
+                                nullptr, 0, nullptr);
 }
 
 bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryPoints& points) const
@@ -142,7 +148,9 @@ bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryP
     const auto number = [](int id) { return static_cast<std::size_t>(id); };
     const Body* const facet = bodies[number(pair.interaction->id1)].get();
     const Body* const particle = bodies[number(pair.interaction->id2)].get();
-    const Body* const neighbour = facet && particle && number(left.to) < bodies.size() ? facetLike(*facet, left.to, *scene) : nullptr;
+    const Body* const neighbour = facet && particle && number(left.to) < bodies.size()
+        ? facetLike(*facet, left.to, *scene)
+        : nullptr;
     if (!neighbour || !interactionOf(*particle, *neighbour))
         return false;
     const BoundaryPoints others = verticesOf(*neighbour->shape, *neighbour->state, pair.centre());
@@ -150,13 +158,13 @@ bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryP
         return false;
     int sense = 0;
     const pp_pose turn = pair.turn();
-    const pp_status status = pp_seam_slope(pair.particle->handle(), &turn, numbersOf(points), left.feature, numbersOf(others),
-                                           &pair.settings.library, &left.share, &sense);
+    const pp_status status = pp_seam_slope(pair.particle->handle(), &turn, numbersOf(points), left.feature,
+                                           numbersOf(others), &pair.settings.library, &left.share, &sense);
     return status == PP_OK && (sense < 0 || (sense > 0 && left.to < pair.interaction->id1));
 }
 
-// A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after (see
-// fillPhysics): the facet that had it holds it for so long, in the place of the owner.
+// A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after
+// (see fillPhysics): the facet that had it holds it for so long, in the place of the owner.
 bool Ig2_Facet_ConicPP_ScGeom::mustHold(const FlatPair& pair) const
 {
     return pair.real && castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
@@ -170,8 +178,8 @@ bool Ig2_Facet_ConicPP_ScGeom::hasForce(const yade::Interaction& pairOfOwner) co
 }
 
 // Whether a facet leaves its contact to this neighbour. `solve`: the neighbour's contact is wanted if it does.
-bool Ig2_Facet_ConicPP_ScGeom::leaves(const TriangleContact& own, const Neighbour& neighbour, const FlatPair& pair, bool solve,
-                                      pp_flat_contact& other) const
+bool Ig2_Facet_ConicPP_ScGeom::leaves(const TriangleContact& own, const Neighbour& neighbour, const FlatPair& pair,
+                                      bool solve, pp_flat_contact& other) const
 {
     // Mostly the slope alone says it.
     if (isFeatureOf(neighbour.shared, own.found.feature)) {
@@ -186,7 +194,8 @@ bool Ig2_Facet_ConicPP_ScGeom::leaves(const TriangleContact& own, const Neighbou
 }
 
 // Of the facets on which the point of the contact lies as well; until `visit` says false.
-template <class Visit> void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const TriangleContact& own, Visit visit)
+template <class Visit>
+void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const TriangleContact& own, Visit visit)
 {
     constexpr unsigned all = 7;
     if (!liesOn(own, all))

@@ -18,7 +18,8 @@ public:
 protected:
     BoundaryPoints pointsOf(const FlatPair& pair) const override;
     pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) override;
-    pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found, pp_patch& patch) const override;
+    pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
+                        pp_patch& patch) const override;
 
 private:
     friend class boost::serialization::access;
@@ -26,8 +27,8 @@ private:
 
     bool mustHold(const FlatPair& pair) const;
     bool hasForce(const yade::Interaction& pairOfOwner) const;
-    // The particle's pair with the neighbour that has the contact, and, if the facet may have to hold it, that contact; null:
-    // the facet itself has it.
+    // The particle's pair with the neighbour that has the contact, and, if the facet may have to hold it, that contact;
+    // null: the facet itself has it.
     const yade::Interaction* ownerOf(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
                                      pp_flat_contact& ofOwner);
     // Whether the facet left its contact to a neighbour in the step before, and does so still.
@@ -39,7 +40,8 @@ private:
         unsigned shared; // of the facet's corners
     };
     template <class Visit> void eachNeighbour(const FlatPair& pair, const TriangleContact& own, Visit visit);
-    bool leaves(const TriangleContact& own, const Neighbour& neighbour, const FlatPair& pair, bool solve, pp_flat_contact& other) const;
+    bool leaves(const TriangleContact& own, const Neighbour& neighbour, const FlatPair& pair, bool solve,
+                pp_flat_contact& other) const;
 
     FacetMesh mesh;
 };

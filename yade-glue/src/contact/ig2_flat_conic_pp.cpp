@@ -48,8 +48,8 @@ bool Ig2_Flat_ConicPP::go(const boost::shared_ptr<Shape>& cm1, const boost::shar
     return real || (force && interaction->geom);
 }
 
-bool Ig2_Flat_ConicPP::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2, PairInStep& pairInStep,
-                                const boost::shared_ptr<Interaction>& interaction) noexcept
+bool Ig2_Flat_ConicPP::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2,
+                                PairInStep& pairInStep, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     const bool real = interaction->hasGeomAndPhys();
     const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
@@ -124,7 +124,8 @@ void Ig2_Flat_ConicPP::fill(FlatPair& pair, const BoundaryPoints& points, const 
     // For physics made from radii; a boundary has none of its own.
     geom.refR1 = geom.refR2 = pair.particle->boundingRadius();
     pp_patch patch;
-    const bool patched = pair.settings.given.patch && fillPatch(pair, findPatch(pair, points, found, patch), patch, centre, -1.0);
+    const bool patched = pair.settings.given.patch
+        && fillPatch(pair, findPatch(pair, points, found, patch), patch, centre, -1.0);
     if (!patched) {
         geom.contactPoint = centre + Vector3r(found.point);
         geom.penetrationDepth = found.overlap;

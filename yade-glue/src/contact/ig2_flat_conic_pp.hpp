@@ -29,7 +29,8 @@ protected:
     // answers separated by the distance 0; with PP_FLAG_BY_MEMORY if it is known from the step before that it does.
     virtual pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) = 0;
     // The patch of that contact, from the particle's centre.
-    virtual pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found, pp_patch& patch) const = 0;
+    virtual pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
+                                pp_patch& patch) const = 0;
 
 private:
     bool answer(FlatPair& pair, const boost::shared_ptr<yade::Shape>& shape2);

@@ -3,9 +3,10 @@
 
 namespace potential_particles {
 
-bool Ig2_Other_ConicPP::goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
-                                  const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
-                                  const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept
+bool Ig2_Other_ConicPP::goReverse(const boost::shared_ptr<yade::Shape>& shape1,
+                                  const boost::shared_ptr<yade::Shape>& shape2, const yade::State& state1,
+                                  const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
+                                  const boost::shared_ptr<yade::Interaction>& interaction) noexcept
 {
     const bool real = interaction->hasGeomAndPhys();
     try {

@@ -7,8 +7,8 @@
 
 namespace potential_particles {
 
-// Body 1 has YADE's shape, body 2 the potential particle, YADE's own or ours. An interaction that has them the other way
-// round is swapped, as by YADE's functors of two kinds of shapes.
+// Body 1 has YADE's shape, body 2 the potential particle, YADE's own or ours. An interaction that has them the other
+// way round is swapped, as by YADE's functors of two kinds of shapes.
 class Ig2_Other_ConicPP : public Ig2_ConicPP_ConicPP_ScGeom {
 public:
     bool goReverse(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The contact functors between YADE's shapes that are particles themselves and potential particles: a class for each PP_STAND_IN of
-// the class table. They differ in what the table says of them.
+// The contact functors between YADE's shapes that are particles themselves and potential particles: a class for each
+// PP_STAND_IN of the class table. They differ in what the table says of them.
 #pragma once
 
 #include "ig2_other_conic_pp.hpp"

@@ -33,12 +33,14 @@ pp_status Ig2_Wall_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& 
     const Vector3r normal = Vector3r::Unit(wall.axis) * (wall.sense < 0 ? -1 : 1);
     const pp_pose turn = pair.turn();
     const auto ask = [&] {
-        return pp_contact_plane(pair.particle->handle(), &turn, points[0].data(), normal.data(), &pair.settings.library, pair.state(), &found);
+        return pp_contact_plane(pair.particle->handle(), &turn, points[0].data(), normal.data(), &pair.settings.library,
+                                pair.state(), &found);
     };
     const pp_status status = fromNothingIfNew(ask(), found, pair.real, pair.state(), ask);
     if (status != PP_OK || found.kind != PP_OVERLAPPING || wall.sense == 0 || Vector3r(found.normal).dot(normal) < 0)
         return status;
-    // The centre is behind a wall that pushes to one side only: the overlap is as far as the particle reaches behind it.
+    // The centre is behind a wall that pushes to one side only: the overlap is as far as the particle reaches behind
+    // it.
     const Vector3r least(found.on_boundary);
     found.overlap = distanceToSurface(*pair.particle, turn, least, -normal);
     copyTo(found.normal, -normal);
@@ -52,8 +54,8 @@ pp_status Ig2_Wall_ConicPP_ScGeom::findPatch(const FlatPair& pair, const Boundar
                                              pp_patch& patch) const
 {
     const pp_pose turn = pair.turn();
-    return pp_patch_on_plane(pair.particle->handle(), &turn, &found, pair.settings.given.patchTolerance, tracksEnergy(), pair.lastPatch(), &patch,
-                             nullptr, 0, nullptr);
+    return pp_patch_on_plane(pair.particle->handle(), &turn, &found, pair.settings.given.patchTolerance, tracksEnergy(),
+                             pair.lastPatch(), &patch, nullptr, 0, nullptr);
 }
 
 } // namespace potential_particles

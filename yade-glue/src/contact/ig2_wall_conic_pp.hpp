@@ -15,7 +15,8 @@ public:
 protected:
     BoundaryPoints pointsOf(const FlatPair& pair) const override;
     pp_status detect(FlatPair& pair, const BoundaryPoints& points, pp_flat_contact& found) override;
-    pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found, pp_patch& patch) const override;
+    pp_status findPatch(const FlatPair& pair, const BoundaryPoints& points, const pp_flat_contact& found,
+                        pp_patch& patch) const override;
 
 private:
     friend class boost::serialization::access;

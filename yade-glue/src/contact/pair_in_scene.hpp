@@ -39,7 +39,8 @@ inline bool isUnit(const yade::Vector3r& vector) { return std::abs(vector.square
 inline yade::Vector3r directionOf(const yade::Vector3r& vector)
 {
     const double length = vector.norm();
-    return length > 0 && std::isfinite(length) ? yade::Vector3r(vector / length) : yade::Vector3r(yade::Vector3r::UnitX());
+    return length > 0 && std::isfinite(length) ? yade::Vector3r(vector / length)
+                                               : yade::Vector3r(yade::Vector3r::UnitX());
 }
 
 struct PairInScene {
@@ -59,7 +60,8 @@ struct PairInScene {
     // An ScGeom6D of YADE.
     static boost::shared_ptr<yade::IGeom> withRotations()
     {
-        return boost::static_pointer_cast<yade::IGeom>(Singleton<yade::ClassFactory>::instance().createShared("ScGeom6D"));
+        return boost::static_pointer_cast<yade::IGeom>(
+            Singleton<yade::ClassFactory>::instance().createShared("ScGeom6D"));
     }
 
     // What the library keeps of the pair, if its geometry has a place for that.

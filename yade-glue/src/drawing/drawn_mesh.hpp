@@ -18,9 +18,9 @@ struct DrawnMesh {
     std::vector<Corner> corners;
     std::vector<std::uint32_t> triangles; // three corners each, counter-clockwise from outside
 
-    // Of the library's mesh with an error of at most 1 % of the bounding radius. Where the surface bends, triangles share
-    // a corner and its normal; where it has an edge that the mesh does not follow round, each has its own normal there.
-    // Throws std::invalid_argument when there is no particle or no mesh of it.
+    // Of the library's mesh with an error of at most 1 % of the bounding radius. Where the surface bends, triangles
+    // share a corner and its normal; where it has an edge that the mesh does not follow round, each has its own normal
+    // there. Throws std::invalid_argument when there is no particle or no mesh of it.
     static DrawnMesh of(const Particle& particle);
 };
 

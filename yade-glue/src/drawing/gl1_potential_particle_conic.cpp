@@ -15,7 +15,8 @@ namespace potential_particles {
 
 namespace {
 
-    // OpenGL as the process has it: the plugin must load where there is none, and YADE draws with what its window loads.
+    // OpenGL as the process has it: the plugin must load where there is none, and YADE draws with what its window
+    // loads.
     struct OpenGL {
         decltype(&glPushAttrib) pushAttributes;
         decltype(&glPopAttrib) popAttributes;

@@ -17,8 +17,8 @@ SurfaceMesh SurfaceMesh::of(const Particle& particle, double tolerance)
         mesh.vertices.resize(3 * points);
         mesh.normals.resize(3 * points);
         mesh.triangles.resize(3 * faces);
-        status = pp_particle_mesh(particle.require(), tolerance, mesh.vertices.data(), mesh.normals.data(), points, &points,
-                                  mesh.triangles.data(), faces, &faces, &mesh.error);
+        status = pp_particle_mesh(particle.require(), tolerance, mesh.vertices.data(), mesh.normals.data(), points,
+                                  &points, mesh.triangles.data(), faces, &faces, &mesh.error);
     }
     requireOk(status);
     mesh.vertices.resize(3 * points);

@@ -25,7 +25,8 @@ void ConicJointMat::callPostLoad()
         throw std::invalid_argument(text.str());
     };
     yade::FrictMat::callPostLoad();
-    for (const auto& [name, value] : { std::pair { "normalStiffness", normalStiffness }, { "shearStiffness", shearStiffness } })
+    for (const auto& [name, value] :
+         { std::pair { "normalStiffness", normalStiffness }, { "shearStiffness", shearStiffness } })
         if (!(std::isfinite(value) && value >= 0))
             refuse(name, value, "give a stiffness per area, N/m^3, or 0 to derive it from young");
     if (!(restitution >= leastRestitution && restitution <= 1))

@@ -30,11 +30,14 @@ public:
     {
         using M = ConicJointMat;
         visit("normalStiffness", &M::normalStiffness,
-              "Normal stiffness per area, N/m^3; 0: young over twice the bounding radius of the body. A joint takes the harmonic mean of "
+              "Normal stiffness per area, N/m^3; 0: young over twice the bounding radius of the body. A joint takes "
+              "the harmonic mean of "
               "its two bodies.");
-        visit("shearStiffness", &M::shearStiffness, "Shear stiffness per area, N/m^3; 0: poisson times the normal one.");
+        visit("shearStiffness", &M::shearStiffness,
+              "Shear stiffness per area, N/m^3; 0: poisson times the normal one.");
         visit("restitution", &M::restitution,
-              "Coefficient of restitution of a head-on impact, 0.01 to 1; a joint takes the smaller one of its two bodies. 1: no dashpot.");
+              "Coefficient of restitution of a head-on impact, 0.01 to 1; a joint takes the smaller one of its two "
+              "bodies. 1: no dashpot.");
         // A joint takes the smaller value of its two bodies, as of frictionAngle.
         visit("cohesion", &M::cohesion, "Shear strength without pressure, Pa.", 1);
         visit("tensileStrength", &M::tensileStrength, "Tensile strength of bonds, Pa.", 1);
@@ -42,7 +45,8 @@ public:
               "Friction angle of a joint that has broken, radians; -1: frictionAngle.", 1);
         visit("residualCohesion", &M::residualCohesion, "Cohesion of a joint that has broken, Pa.", 1);
         visit("softening", &M::softening,
-              "Opening or slip, m, over which the stress in a bond falls from the strength to 0; 0: bonds are brittle.", 1);
+              "Opening or slip, m, over which the stress in a bond falls from the strength to 0; 0: bonds are brittle.",
+              1);
     }
 
 private:

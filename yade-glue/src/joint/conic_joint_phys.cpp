@@ -19,7 +19,8 @@ void ConicJointPhys::callPostLoad()
     if (normalStiffness > 0)
         requireFinite<ConicJointPhys>("tangensOfFrictionAngle", tangensOfFrictionAngle);
     if (bondRim.size() % 2 != 0)
-        throw std::invalid_argument("ConicJointPhys: bondRim has " + std::to_string(bondRim.size()) + " numbers: give y and z of each corner");
+        throw std::invalid_argument("ConicJointPhys: bondRim has " + std::to_string(bondRim.size())
+                                    + " numbers: give y and z of each corner");
 }
 
 void ConicJointPhys::take(const JointForces& forces)

@@ -36,11 +36,15 @@ public:
 
     JointParameters parameters() const
     {
-        return { normalStiffness, shearStiffness, tangensOfFrictionAngle, dampingRatio, cohesion, tensileStrength, tangensOfResidualFrictionAngle,
-                 residualCohesion, softening };
+        return { normalStiffness, shearStiffness,  tangensOfFrictionAngle,         dampingRatio,
+                 cohesion,        tensileStrength, tangensOfResidualFrictionAngle, residualCohesion,
+                 softening };
     }
     // What the springs along the joint hold, as scripts and files have it.
-    void rememberEnergyAlong() { energyAlong = 0.5 * (ks * shearDisplacement.squaredNorm() + twistStiffness * twist * twist); }
+    void rememberEnergyAlong()
+    {
+        energyAlong = 0.5 * (ks * shearDisplacement.squaredNorm() + twistStiffness * twist * twist);
+    }
     void take(const JointForces& forces);
 
     template <class Visit> static void eachAttribute(Visit&& visit)
@@ -48,35 +52,48 @@ public:
         using P = ConicJointPhys;
         visit("normalStiffness", &P::normalStiffness, "Normal stiffness per area, N/m^3.");
         visit("shearStiffness", &P::shearStiffness, "Shear stiffness per area, N/m^3.");
-        visit("dampingRatio", &P::dampingRatio, "Dashpot over the critical one, from the restitution of the materials.");
+        visit("dampingRatio", &P::dampingRatio,
+              "Dashpot over the critical one, from the restitution of the materials.");
         visit("shearDisplacement", &P::shearDisplacement,
               "Elastic part of the displacement of body 2 against body 1 along the joint, world axes, m.");
         visit("twist", &P::twist, "Elastic part of the turn of body 2 against body 1 about the normal, radians.");
-        visit("twistStiffness", &P::twistStiffness, "Stiffness against it, N m: shear stiffness per area times the polar moment.");
+        visit("twistStiffness", &P::twistStiffness,
+              "Stiffness against it, N m: shear stiffness per area times the polar moment.");
         visit("twistMoment", &P::twistMoment, "Moment of friction on body 2 about the normal, N m.");
         visit("couple", &P::couple, "Moment of the pressure on body 2 about the normal, N m.");
         visit("isSliding", &P::isSliding, "Whether friction was at its limit in the last step.");
         visit("cohesion", &P::cohesion, "Shear strength without pressure, Pa.", 1);
         visit("residualCohesion", &P::residualCohesion, "The same once the joint has broken, Pa.", 1);
-        visit("tangensOfResidualFrictionAngle", &P::tangensOfResidualFrictionAngle, "Tangent of the friction angle once it has broken.", 1);
+        visit("tangensOfResidualFrictionAngle", &P::tangensOfResidualFrictionAngle,
+              "Tangent of the friction angle once it has broken.", 1);
         visit("tensileStrength", &P::tensileStrength, "Tensile strength of the bond, Pa.", 1);
-        visit("softening", &P::softening, "Opening or slip over which the stress in the bond falls to 0, m; 0: brittle.", 1);
-        visit("broken", &P::broken, "Whether the joint has the residual values: it has slipped, opened, or was made later.", 1);
+        visit("softening", &P::softening,
+              "Opening or slip over which the stress in the bond falls to 0, m; 0: brittle.", 1);
+        visit("broken", &P::broken,
+              "Whether the joint has the residual values: it has slipped, opened, or was made later.", 1);
         visit("bonded", &P::bonded,
-              "Whether the bodies are bonded. Set to True, the patch of the next step becomes a bond; set to False, the bond ends.", 1);
+              "Whether the bodies are bonded. Set to True, the patch of the next step becomes a bond; set to False, "
+              "the bond ends.",
+              1);
         visit("damage", &P::damage, "Share of the stiffness that softening has taken from the bond, 0 to 1.", 1);
         visit("bondArea", &P::bondArea, "Area of the bond, m^2; 0 without one.", 1);
         visit("bondMoments", &P::bondMoments,
-              "Polar moment of the bonded area about its centroid, and its second moments against bending about y and z of the "
-              "bond, m^4.", 1);
+              "Polar moment of the bonded area about its centroid, and its second moments against bending about y and "
+              "z of the "
+              "bond, m^4.",
+              1);
         visit("bondPoint1", &P::bondPoint1, "Centroid of the bonded area, axes of body 1, from its centre, m.", 1);
         visit("bondPoint2", &P::bondPoint2, "The same of body 2.", 1);
-        visit("bondTurn1", &P::bondTurn1, "Axes of the bond in those of body 1: x is the normal, y and z principal axes of the area.", 1);
+        visit("bondTurn1", &P::bondTurn1,
+              "Axes of the bond in those of body 1: x is the normal, y and z principal axes of the area.", 1);
         visit("bondTurn2", &P::bondTurn2, "The same in those of body 2.", 1);
-        visit("bondDisplacement", &P::bondDisplacement, "Displacement of its springs when it was made, axes of the bond, m.", 1);
-        visit("bondRotation", &P::bondRotation, "Rotation of its springs when it was made, axes of the bond, radians.", 1);
+        visit("bondDisplacement", &P::bondDisplacement,
+              "Displacement of its springs when it was made, axes of the bond, m.", 1);
+        visit("bondRotation", &P::bondRotation, "Rotation of its springs when it was made, axes of the bond, radians.",
+              1);
         visit("bondRim", &P::bondRim, "Corners of the bonded area: y and z in turn, axes of the bond, m.", 1);
-        visit("bendingMoment", &P::bendingMoment, "Moment of the bond on body 2 across the normal, about the centroid, N m.", 1);
+        visit("bendingMoment", &P::bendingMoment,
+              "Moment of the bond on body 2 across the normal, about the centroid, N m.", 1);
     }
 
 private:

@@ -30,7 +30,8 @@ namespace {
 
     double shearStiffness(const ConicJointMat& material, double radius)
     {
-        return material.shearStiffness > 0 ? material.shearStiffness : material.poisson * normalStiffness(material, radius);
+        return material.shearStiffness > 0 ? material.shearStiffness
+                                           : material.poisson * normalStiffness(material, radius);
     }
 
     double residualFrictionAngle(const ConicJointMat& material)

@@ -43,8 +43,9 @@ void Ip2OfBlocks::callPostLoad()
     }
 }
 
-void Ip2OfBlocks::go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
-             const boost::shared_ptr<yade::Interaction>& interaction)
+void Ip2OfBlocks::go(const boost::shared_ptr<yade::Material>& material1,
+                     const boost::shared_ptr<yade::Material>& material2,
+                     const boost::shared_ptr<yade::Interaction>& interaction)
 {
     if (interaction->phys)
         return;

@@ -42,9 +42,11 @@ public:
         visit("tension", &Ip2::tension, "Tensile strength, stress; counts where tensionBroken is False.");
         visit("cohesionBroken", &Ip2::cohesionBroken, "Whether contacts begin without cohesion.");
         visit("tensionBroken", &Ip2::tensionBroken, "Whether contacts begin without tensile strength.");
-        visit("phi_b", &Ip2::phi_b, "Accepted; without properties of faces the friction angle is that of the materials.");
+        visit("phi_b", &Ip2::phi_b,
+              "Accepted; without properties of faces the friction angle is that of the materials.");
         visit("useFaceProperties", &Ip2::useFaceProperties,
-              "False: shapes have no properties of faces. potential_particles.rock.joint_engine gives contacts those of their joint.");
+              "False: shapes have no properties of faces. potential_particles.rock.joint_engine gives contacts those "
+              "of their joint.");
     }
 
 private:

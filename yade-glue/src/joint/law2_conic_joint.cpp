@@ -21,30 +21,39 @@ PP_FUNCTOR_2D_DEFINITIONS(Law2_ScGeomConicPP_ConicJointPhys)
 PP_ATTRIBUTE_DEFINITIONS(Law2_ScGeomConicPP_ConicJointPhys, LawFunctor)
 void Law::callPostLoad() { yade::LawFunctor::callPostLoad(); }
 
-bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics, yade::Interaction* interaction)
+bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics,
+             yade::Interaction* interaction)
 {
     return act(*geometry, *physics, *interaction, nullptr, nullptr);
 }
 
-bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interaction& interaction, BodyPush* onFirst, BodyPush* onSecond)
+bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interaction& interaction, BodyPush* onFirst,
+              BodyPush* onSecond)
 {
-    const Vector3r shift = scene->isPeriodic ? Vector3r(scene->cell->hSize * interaction.cellDist.cast<double>()) : Vector3r::Zero();
+    const Vector3r shift = scene->isPeriodic ? Vector3r(scene->cell->hSize * interaction.cellDist.cast<double>())
+                                             : Vector3r::Zero();
     auto& geom = static_cast<yade::ScGeom&>(geometry);
     auto& phys = static_cast<ConicJointPhys&>(physics);
     auto* const own = dynamic_cast<ScGeomConicPP*>(&geom);
-    const JointBody one = movingBody(*scene, interaction.id1, Vector3r::Zero()), other = movingBody(*scene, interaction.id2, shift);
+    const JointBody one = movingBody(*scene, interaction.id1, Vector3r::Zero()),
+                    other = movingBody(*scene, interaction.id2, shift);
     phys.rememberEnergyAlong();
     const JointParameters parameters = phys.parameters();
     JointLaw law(parameters, phys, one, other, scene->dt);
 
     const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
     const auto posed = [&](int which) {
-        const yade::Body& body = *scene->bodies->body[static_cast<std::size_t>(which == 1 ? interaction.id1 : interaction.id2)];
+        const yade::Body& body =
+            *scene->bodies->body[static_cast<std::size_t>(which == 1 ? interaction.id1 : interaction.id2)];
         return PosedBody(body.shape, *body.state, which == 1 ? Vector3r(Vector3r::Zero()) : shift);
     };
     const bool holds = law.step(
         touches ? &own->patch() : nullptr, !(own && own->isHeldByBond()),
-        [&] { return JointMotion { geom.contactPoint, geom.normal, geom.shearInc, geom.orthonormal_axis, geom.twist_axis }; }, posed);
+        [&] {
+            return JointMotion { geom.contactPoint, geom.normal, geom.shearInc, geom.orthonormal_axis,
+                                 geom.twist_axis };
+        },
+        posed);
     if (holds) {
         if (own)
             own->setHeldByBond(phys.bonded);

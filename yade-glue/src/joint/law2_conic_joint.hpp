@@ -24,9 +24,11 @@ public:
     std::string get2DFunctorType2() const override;
     std::string checkOrder() const override;
 
-    bool go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics, yade::Interaction* interaction) override;
+    bool go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics,
+            yade::Interaction* interaction) override;
     // The same; what it does to the bodies goes there and not to the scene, if given: one push a body, or none.
-    bool act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interaction& interaction, BodyPush* onFirst, BodyPush* onSecond);
+    bool act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interaction& interaction, BodyPush* onFirst,
+             BodyPush* onSecond);
 
     bool neverErase = false;
 

@@ -16,14 +16,15 @@ struct BodyPush {
     bool any = false;
 };
 
-// shift: of its periodic image, world axes. A member of a clump moves as the clump does: YADE keeps its velocities up to date, its mass is the
-// clump's.
+// shift: of its periodic image, world axes. A member of a clump moves as the clump does: YADE keeps its velocities up
+// to date, its mass is the clump's.
 inline JointBody movingBody(const yade::Scene& scene, int id, const yade::Vector3r& shift)
 {
     const auto& bodies = scene.bodies->body;
     const yade::Body& body = *bodies[static_cast<std::size_t>(id)];
     const bool inClump = body.clumpId >= 0 && body.clumpId != body.id;
-    const yade::State &own = *body.state, &whole = inClump ? *bodies[static_cast<std::size_t>(body.clumpId)]->state : own;
+    const yade::State &own = *body.state,
+                      &whole = inClump ? *bodies[static_cast<std::size_t>(body.clumpId)]->state : own;
     JointBody moving { own.se3.position + shift, own.se3.orientation, own.vel, own.angVel, {} };
     JointMass& mass = moving.mass;
     mass.centre = whole.se3.position + shift;

@@ -17,8 +17,8 @@ using yade::Vector3r;
 
 namespace {
 
-    // Rings of the fan about the centroid, over its rim. Pressure falls to 0 within the rounding of an edge: the last but one is about
-    // where the flat part ends.
+    // Rings of the fan about the centroid, over its rim. Pressure falls to 0 within the rounding of an edge: the last
+    // but one is about where the flat part ends.
     constexpr std::array<double, 5> rings { 0.4, 0.7, 0.9, 0.98, 1.0 };
 
     // A side longer than this part of the rim is divided: the pressure along it need not be linear.
@@ -46,8 +46,9 @@ namespace {
 
 } // namespace
 
-py::tuple patchSurface(const yade::ScGeom& geometry, const boost::shared_ptr<yade::Shape>& shape1, const yade::State& state1,
-                       const boost::shared_ptr<yade::Shape>& shape2, const yade::State& state2, const Vector3r& shift2)
+py::tuple patchSurface(const yade::ScGeom& geometry, const boost::shared_ptr<yade::Shape>& shape1,
+                       const yade::State& state1, const boost::shared_ptr<yade::Shape>& shape2,
+                       const yade::State& state2, const Vector3r& shift2)
 {
     std::vector<double> corners, depths;
     const auto* const own = dynamic_cast<const ScGeomConicPP*>(&geometry);
@@ -68,7 +69,8 @@ py::tuple patchSurface(const yade::ScGeom& geometry, const boost::shared_ptr<yad
         for (std::size_t i = 0; i < rim.size(); ++i) {
             triangle(node(0, i), node(rings[0], i), node(rings[0], i + 1));
             for (std::size_t ring = 1; ring < rings.size(); ++ring) {
-                const Node a = node(rings[ring - 1], i), b = node(rings[ring - 1], i + 1), c = node(rings[ring], i), d = node(rings[ring], i + 1);
+                const Node a = node(rings[ring - 1], i), b = node(rings[ring - 1], i + 1), c = node(rings[ring], i),
+                           d = node(rings[ring], i + 1);
                 triangle(a, c, d);
                 triangle(a, d, b);
             }

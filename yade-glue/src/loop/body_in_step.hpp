@@ -14,8 +14,8 @@
 
 namespace potential_particles {
 
-// A value that one thread writes while others read it. Readers get some value that it has had, perhaps of another step than
-// the values beside it: enough to fetch memory ahead of its use, which does no harm where it turns out wrong.
+// A value that one thread writes while others read it. Readers get some value that it has had, perhaps of another step
+// than the values beside it: enough to fetch memory ahead of its use, which does no harm where it turns out wrong.
 template <class Value> class Guess {
 public:
     Guess(Value value) : held(value) { }
@@ -31,7 +31,8 @@ struct Way {
     // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
     double travelled = 0;
     // Number of the period over which `travelled` has been summed. A new one begins, at 0, when the body gets another
-    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. 0: it is not known.
+    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. 0: it is not
+    // known.
     std::uint64_t generation = 0;
 };
 
@@ -43,7 +44,8 @@ struct Flat {
     double radius = 0; // of the ball about its position in which they lie
 };
 
-// Its particle and its way are looked at once a step, by the thread that meets it first; the rest is there in a loop of our own.
+// Its particle and its way are looked at once a step, by the thread that meets it first; the rest is there in a loop of
+// our own.
 class alignas(64) BodyInStep {
 public:
     // Null when there is no valid particle or pose: the pair then finds out why by itself.

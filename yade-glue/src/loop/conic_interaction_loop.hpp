@@ -13,12 +13,13 @@
 
 namespace potential_particles {
 
-// In the place of YADE's InteractionLoop. Bodies are looked at once a step; pairs that are further apart than their bodies can have
-// moved since cost a comparison; contacts go through our functors and through laws that are known (known_laws.hpp) without a virtual
-// call, and push their bodies in an order of their own. What YADE shows of a contact is as by its own loop, to the last bit.
+// In the place of YADE's InteractionLoop. Bodies are looked at once a step; pairs that are further apart than their
+// bodies can have moved since cost a comparison; contacts go through our functors and through laws that are known
+// (known_laws.hpp) without a virtual call, and push their bodies in an order of their own. What YADE shows of a contact
+// is as by its own loop, to the last bit.
 //
-// YADE's loop runs as it is in periodic cells and with callbacks, and serves, in one thread, what this one has no functor for: it
-// fills the dispatchers' tables, or says what is missing.
+// YADE's loop runs as it is in periodic cells and with callbacks, and serves, in one thread, what this one has no
+// functor for: it fills the dispatchers' tables, or says what is missing.
 class ConicInteractionLoop final : public yade::InteractionLoop {
 public:
     ConicInteractionLoop();

@@ -27,7 +27,10 @@ namespace {
     const double leastShearForce = powerOfTen(-11);
     const double leastDirection = powerOfTen(-11);
 
-    Push pushAt(const Levers& levers, const Vector3r& force) { return { force, levers.first.cross(force), -levers.second.cross(force) }; }
+    Push pushAt(const Levers& levers, const Vector3r& force)
+    {
+        return { force, levers.first.cross(force), -levers.second.cross(force) };
+    }
 
     void track(yade::Scene& scene, double energy, const char* name, int& number, bool ofStep)
     {
@@ -54,8 +57,8 @@ namespace {
 
 } // namespace
 
-Done cundallStrack(yade::Law2_ScGeom_FrictPhys_CundallStrack& law, yade::Scene& scene, const yade::ScGeom& geom, yade::FrictPhys& phys,
-                   const BodyInStep& one, const BodyInStep& other, Push& push)
+Done cundallStrack(yade::Law2_ScGeom_FrictPhys_CundallStrack& law, yade::Scene& scene, const yade::ScGeom& geom,
+                   yade::FrictPhys& phys, const BodyInStep& one, const BodyInStep& other, Push& push)
 {
     if (law.sphericalBodies || law.traceEnergy)
         return Done::notKnown;
@@ -86,8 +89,8 @@ Done cundallStrack(yade::Law2_ScGeom_FrictPhys_CundallStrack& law, yade::Scene& 
 Done knKs(yade::Law2_SCG_KnKsPhys_KnKsLaw& law, yade::Scene& scene, const yade::ScGeom& geom, yade::KnKsPhys& phys,
           const BodyInStep& one, const BodyInStep& other, LastTangent& tangent, Push& push)
 {
-    const bool known = !law.Talesnick && !law.traceEnergy && law.initialOverlapDistance == 0 && phys.jointType != 3 && !phys.intactRock
-        && one.hasBox && other.hasBox;
+    const bool known = !law.Talesnick && !law.traceEnergy && law.initialOverlapDistance == 0 && phys.jointType != 3
+        && !phys.intactRock && one.hasBox && other.hasBox;
     const double depth = geom.penetrationDepth;
     if (!known || (depth < 0 && law.neverErase))
         return Done::notKnown;
@@ -129,8 +132,8 @@ Done knKs(yade::Law2_SCG_KnKsPhys_KnKsLaw& law, yade::Scene& scene, const yade::
             phys.u_elastic += way;
         }
     }
-    // YADE's functor asks every shape, as if it were a PotentialParticle. Where it is none, what it finds is left to chance; no force
-    // depends on these two.
+    // YADE's functor asks every shape, as if it were a PotentialParticle. Where it is none, what it finds is left to
+    // chance; no force depends on these two.
     if (one.isBoundary || other.isBoundary)
         phys.tensionBroken = phys.cohesionBroken = true;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Laws that a loop of our own computes by itself: to the last bit what their functors compute, without a virtual call, a power or a
-// tangent for each contact.
+// Laws that a loop of our own computes by itself: to the last bit what their functors compute, without a virtual call,
+// a power or a tangent for each contact.
 #pragma once
 
 #include "abi/laws.hpp"
@@ -27,8 +27,8 @@ enum class Done {
 };
 
 // Law2_ScGeom_FrictPhys_CundallStrack with sphericalBodies=False.
-Done cundallStrack(yade::Law2_ScGeom_FrictPhys_CundallStrack& law, yade::Scene& scene, const yade::ScGeom& geom, yade::FrictPhys& phys,
-                   const BodyInStep& one, const BodyInStep& other, Push& push);
+Done cundallStrack(yade::Law2_ScGeom_FrictPhys_CundallStrack& law, yade::Scene& scene, const yade::ScGeom& geom,
+                   yade::FrictPhys& phys, const BodyInStep& one, const BodyInStep& other, Push& push);
 
 // The tangent of the last angle, since most contacts have one and the same.
 class LastTangent {

@@ -14,8 +14,8 @@
 
 namespace potential_particles {
 
-// Where YADE keeps the pair's interaction in its list. Written by the thread that has the interaction. A cache line: of a pair
-// that sleeps no other one is read.
+// Where YADE keeps the pair's interaction in its list. Written by the thread that has the interaction. A cache line: of
+// a pair that sleeps no other one is read.
 struct alignas(64) PairInStep {
     Guess<int> id1 = -1, id2 = -1;
     std::uint64_t generation1 = 0, generation2 = 0;
@@ -27,12 +27,15 @@ struct alignas(64) PairInStep {
     // Of the loop's functors, the one that let it sleep.
     unsigned char functor = 0;
 
-    // Whether it is that of this interaction. The block that counts its references stays where it is for as long as this one is
-    // held, so that no other interaction can have it.
-    bool isOf(const boost::shared_ptr<yade::Interaction>& pair) const { return !of.owner_before(pair) && !pair.owner_before(of); }
+    // Whether it is that of this interaction. The block that counts its references stays where it is for as long as
+    // this one is held, so that no other interaction can have it.
+    bool isOf(const boost::shared_ptr<yade::Interaction>& pair) const
+    {
+        return !of.owner_before(pair) && !pair.owner_before(of);
+    }
 
-    // Begins anew for another interaction. An interaction that YADE made anew is looked at, so that its memory becomes the same as by
-    // InteractionLoop.
+    // Begins anew for another interaction. An interaction that YADE made anew is looked at, so that its memory becomes
+    // the same as by InteractionLoop.
     void become(const boost::shared_ptr<yade::Interaction>& pair)
     {
         of = pair;
@@ -47,11 +50,13 @@ struct alignas(64) PairInStep {
     // Of the interaction that it is of.
     bool sleeps(const Way& way1, const Way& way2) const
     {
-        return way1.travelled + way2.travelled < wakes && generation1 == way1.generation && generation2 == way2.generation;
+        return way1.travelled + way2.travelled < wakes && generation1 == way1.generation
+            && generation2 == way2.generation;
     }
 
     // They are `room` apart now; 0: nothing is known. The bodies in the order of the interaction.
-    void note(const boost::shared_ptr<yade::Interaction>& pair, const BodyInStep& body1, const BodyInStep& body2, double room)
+    void note(const boost::shared_ptr<yade::Interaction>& pair, const BodyInStep& body1, const BodyInStep& body2,
+              double room)
     {
         if (!isOf(pair))
             become(pair);

@@ -25,7 +25,8 @@ bool Pushes::enter(int body, Entry entry)
 {
     const auto id = static_cast<std::size_t>(body);
     const auto begin = entries.begin() + begins[id], end = entries.begin() + ends[id];
-    const auto at = std::lower_bound(begin, end, entry, [](const Entry& one, const Entry& other) { return one.other < other.other; });
+    const auto at = std::lower_bound(begin, end, entry,
+                                     [](const Entry& one, const Entry& other) { return one.other < other.other; });
     if (at != end && at->other == entry.other) {
         *at = entry;
         return true;

@@ -10,14 +10,15 @@
 
 namespace potential_particles {
 
-// For each body a list of its contacts in the order of the other bodies' ids: that in which one thread of YADE adds them up when its loop
-// goes through the sorted list of interactions.
+// For each body a list of its contacts in the order of the other bodies' ids: that in which one thread of YADE adds
+// them up when its loop goes through the sorted list of interactions.
 class Pushes {
 public:
     // Contacts that are listed carry this number.
     std::uint64_t number() const { return lists; }
 
-    // Before the sums of a step: enters the contacts at these places, which are in no list yet. So many pairs and bodies there are.
+    // Before the sums of a step: enters the contacts at these places, which are in no list yet. So many pairs and
+    // bodies there are.
     void list(const std::vector<std::size_t>& missing, Step& step, std::size_t pairs, std::size_t bodies);
 
     // Adds up what pushes a body, and hands it to the scene; many threads may do so at once.

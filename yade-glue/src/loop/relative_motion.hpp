@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// How two bodies move against each other at their contact, to the last bit as YADE's ScGeom and laws compute it outside of
-// periodic cells. The order of the operations matters.
+// How two bodies move against each other at their contact, to the last bit as YADE's ScGeom and laws compute it outside
+// of periodic cells. The order of the operations matters.
 #pragma once
 
 #include "abi/scgeom.hpp"
@@ -20,7 +20,8 @@ struct Levers {
     // Of the second body against the first, at the point.
     yade::Vector3r velocity(const BodyInStep& one, const BodyInStep& other) const
     {
-        const yade::Vector3r ofSecond = other.velocity + other.spin.cross(second), ofFirst = one.velocity + one.spin.cross(first);
+        const yade::Vector3r ofSecond = other.velocity + other.spin.cross(second),
+                             ofFirst = one.velocity + one.spin.cross(first);
         return ofSecond - ofFirst;
     }
 
@@ -28,8 +29,8 @@ struct Levers {
 };
 
 // ScGeom::precompute(): the stored normal must still be that of the last step, and the point the present one.
-inline void turnFrame(yade::ScGeom& geom, const BodyInStep& one, const BodyInStep& other, double dt, const yade::Vector3r& normal,
-                      bool isNew)
+inline void turnFrame(yade::ScGeom& geom, const BodyInStep& one, const BodyInStep& other, double dt,
+                      const yade::Vector3r& normal, bool isNew)
 {
     using yade::Vector3r;
     if (isNew) {

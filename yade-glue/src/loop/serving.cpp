@@ -19,17 +19,19 @@ using yade::Vector3r;
 namespace {
 
     // The functor for a pair of classes, if the dispatcher has met the pair.
-    template <class Functor> const boost::shared_ptr<Functor>* entry(const yade::FunctorMatrix<Functor>& matrix, int row, int column)
-    {
-        if (row < 0 || column < 0 || static_cast<std::size_t>(row) >= matrix.size()
-            || static_cast<std::size_t>(column) >= matrix[static_cast<std::size_t>(row)].size())
-            return nullptr;
-        const auto& found = matrix[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
-        return found ? &found : nullptr;
+template <class Functor>
+const boost::shared_ptr<Functor>* entry(const yade::FunctorMatrix<Functor>& matrix, int row, int column)
+{
+    if (row < 0 || column < 0 || static_cast<std::size_t>(row) >= matrix.size()
+        || static_cast<std::size_t>(column) >= matrix[static_cast<std::size_t>(row)].size())
+        return nullptr;
+    const auto& found = matrix[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+    return found ? &found : nullptr;
     }
 
     template <class Functor, class First, class Second>
-    const boost::shared_ptr<Functor>* entryFor(const yade::FunctorMatrix<Functor>& matrix, const First& first, const Second& second)
+    const boost::shared_ptr<Functor>* entryFor(const yade::FunctorMatrix<Functor>& matrix, const First& first,
+                                               const Second& second)
     {
         return entry(matrix, first.getClassIndex(), second.getClassIndex());
     }
@@ -173,7 +175,8 @@ void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
     const bool wasReal = pair.hasGeomAndPhys();
     if (!pair.functorCache.phys) {
         const auto &material1 = one.body->material, &material2 = other.body->material;
-        const auto* const functor = material1 && material2 ? entryFor(physics.callBacks, *material1, *material2) : nullptr;
+        const auto* const functor = material1 && material2 ? entryFor(physics.callBacks, *material1, *material2)
+                                                           : nullptr;
         if (!functor) {
             leave(place);
             return;
@@ -191,8 +194,8 @@ void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
             known.functor = static_cast<unsigned char>(i + 1);
         }
     }
-    const bool touches = !finder ? pair.functorCache.geom->go(one.body->shape, other.body->shape, *one.body->state, *other.body->state,
-                                                              Vector3r::Zero(), false, held)
+    const bool touches = !finder ? pair.functorCache.geom->go(one.body->shape, other.body->shape, *one.body->state,
+                                                              *other.body->state, Vector3r::Zero(), false, held)
         : finder->flat           ? finder->flat->goInLoop(step, *counts, one, other, known, held)
                                  : finder->ours->goInLoop(step, *counts, one, other, known, held);
     if (!touches) {
@@ -239,7 +242,8 @@ bool Serving::findLaw(Interaction& pair) const
     return functor;
 }
 
-bool Serving::push(std::size_t place, PairInStep& known, Interaction& pair, const BodyInStep& one, const BodyInStep& other, Thread& thread)
+bool Serving::push(std::size_t place, PairInStep& known, Interaction& pair, const BodyInStep& one,
+                   const BodyInStep& other, Thread& thread)
 {
     const yade::LawFunctor* const functor = pair.functorCache.constLaw.get();
     ContactInStep* const contact = step.contactAt(place);
@@ -254,11 +258,11 @@ bool Serving::push(std::size_t place, PairInStep& known, Interaction& pair, cons
         if (law.functor != functor || !contact)
             continue;
         if (law.knKs) {
-            done = knKs(*law.knKs, scene, static_cast<yade::ScGeom&>(*pair.geom), static_cast<yade::KnKsPhys&>(*pair.phys), one, other,
-                        thread.tangent, contact->push);
+            done = knKs(*law.knKs, scene, static_cast<yade::ScGeom&>(*pair.geom),
+                        static_cast<yade::KnKsPhys&>(*pair.phys), one, other, thread.tangent, contact->push);
         } else if (law.cundallStrack) {
-            done = cundallStrack(*law.cundallStrack, scene, static_cast<yade::ScGeom&>(*pair.geom), static_cast<yade::FrictPhys&>(*pair.phys),
-                                 one, other, contact->push);
+            done = cundallStrack(*law.cundallStrack, scene, static_cast<yade::ScGeom&>(*pair.geom),
+                                 static_cast<yade::FrictPhys&>(*pair.phys), one, other, contact->push);
         } else if (law.joint) {
             BodyPush first, second;
             const bool lasts = law.joint->act(*pair.geom, *pair.phys, pair, &first, &second);

@@ -63,7 +63,8 @@ private:
     bool findGeomFunctor(std::size_t place, yade::Interaction& pair);
     bool findLaw(yade::Interaction& pair) const;
     // False when the contact is over.
-    bool push(std::size_t place, PairInStep& known, yade::Interaction& pair, const BodyInStep& one, const BodyInStep& other, Thread& thread);
+    bool push(std::size_t place, PairInStep& known, yade::Interaction& pair, const BodyInStep& one,
+              const BodyInStep& other, Thread& thread);
     void leave(std::size_t place);
     yade::Body* bodyOf(int id) const;
 

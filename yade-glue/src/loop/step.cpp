@@ -56,7 +56,8 @@ namespace {
 
 } // namespace
 
-// True for one thread in a step, which then looks at the body; the others wait for it: it takes a few tens of nanoseconds.
+// True for one thread in a step, which then looks at the body; the others wait for it: it takes a few tens of
+// nanoseconds.
 bool Step::mayLook(std::atomic<std::uint64_t>& step) const
 {
     std::uint64_t seen = step.load(std::memory_order_acquire);
@@ -99,7 +100,8 @@ void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>
         if (!particle->handle() || !position.allFinite() || !isUnit(orientation))
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
-        const double way = (position - body.formerPosition).norm() + radius * wayOfTurn(body.formerOrientation, orientation);
+        const double way = (position - body.formerPosition).norm()
+            + radius * wayOfTurn(body.formerOrientation, orientation);
         const double sum = travelled(body.way.travelled, way);
         // Whether the way since the last look is known, so that it can be added to the sum.
         const bool continues
@@ -121,7 +123,8 @@ void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>
     }
 }
 
-// Of a wall its orientation does not count. What moves by no bound, such as what is not a number, begins anew in each step.
+// Of a wall its orientation does not count. What moves by no bound, such as what is not a number, begins anew in each
+// step.
 void Step::lookAtFlat(BodyInStep& body, const yade::Shape& shape)
 {
     const bool same = isStill(body.flat, shape);

@@ -61,8 +61,9 @@ public:
         ways.resize(bodies);
         flats.resize(bodies);
     }
-    // Then, by any thread, looks at one of them, which may be null. False when memory runs out. Walls and facets are many and mostly near
-    // to nothing: one that is known as such, and of which no pair has asked for some steps, waits until one does.
+    // Then, by any thread, looks at one of them, which may be null. False when memory runs out. Walls and facets are
+    // many and mostly near to nothing: one that is known as such, and of which no pair has asked for some steps, waits
+    // until one does.
     bool gather(std::size_t id, yade::Body* body)
     {
         if (body && flats[id].body == body && flats[id].waits < count)
@@ -134,8 +135,8 @@ public:
     }
 
 private:
-    // A contact takes some hundred nanoseconds, and so does a load from memory: six contacts are time enough for the loads
-    // of one.
+    // A contact takes some hundred nanoseconds, and so does a load from memory: six contacts are time enough for the
+    // loads of one.
     static constexpr std::size_t ahead = 6;
     // What a contact touches of ScGeomConicPP and KnKsPhys.
     static constexpr std::size_t geomSize = 256, stateOffset = sizeof(ScGeomConicPP) - sizeof(pp_pair_state);

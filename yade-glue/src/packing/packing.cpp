@@ -28,7 +28,8 @@ namespace {
     {
         const double* p = body.pose.position;
         const double* q = body.pose.orientation;
-        return py::make_tuple(body.shape, body.scale, py::make_tuple(p[0], p[1], p[2]), py::make_tuple(q[0], q[1], q[2], q[3]));
+        return py::make_tuple(body.shape, body.scale, py::make_tuple(p[0], p[1], p[2]),
+                              py::make_tuple(q[0], q[1], q[2], q[3]));
     }
 
     // What Python raises stays set in its thread until packContainer throws it: no exception crosses the library.

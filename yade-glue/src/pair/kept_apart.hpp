@@ -14,9 +14,9 @@
 
 namespace potential_particles {
 
-// A boundary as the particle sees it: points in world axes from the particle's centre. A triangle is given by its vertices,
-// a plane by the foot of the perpendicular, three times. Each point of the boundary is a mean of these (or moves with
-// them, along a plane's axis), so none moves further than the one that moves furthest.
+// A boundary as the particle sees it: points in world axes from the particle's centre. A triangle is given by its
+// vertices, a plane by the foot of the perpendicular, three times. Each point of the boundary is a mean of these (or
+// moves with them, along a plane's axis), so none moves further than the one that moves furthest.
 using BoundaryPoints = Triangle;
 
 // Nothing here comes from a file or a script: it is no hint, the answer rests on it.
@@ -28,8 +28,8 @@ public:
         const yade::Quaternionr& turn;
     };
 
-    // The particles are `distance` or more apart where they are now. `branch`: from body 1 to body 2. By how much they are
-    // so for sure; 0 when that cannot be known.
+    // The particles are `distance` or more apart where they are now. `branch`: from body 1 to body 2. By how much they
+    // are so for sure; 0 when that cannot be known.
     double note(const Turned& one, const Turned& other, const yade::Vector3r& branch, double distance)
     {
         forget();

@@ -12,7 +12,8 @@ namespace potential_particles {
 
 namespace {
     constexpr char digits[] = "0123456789abcdef";
-    // The remembered solution in files: of class version 0 it is all, since then room follows, written as 0 and not read.
+    // The remembered solution in files: of class version 0 it is all, since then room follows, written as 0 and not
+    // read.
     constexpr std::size_t solutionSize = sizeof(pp_pair_state::solution), sizeInFiles = 128;
     static_assert(solutionSize == 64);
 }
@@ -47,7 +48,8 @@ void ScGeomConicPP::pySetMemory(const std::string& hexadecimal)
         for (std::size_t j = 0; j < 2; ++j) {
             const auto* digit = std::find(digits, digits + 16, hexadecimal[2 * i + j]);
             if (digit == digits + 16)
-                throw std::invalid_argument(std::string("memory: '") + hexadecimal[2 * i + j] + "' is no hexadecimal digit");
+                throw std::invalid_argument(std::string("memory: '") + hexadecimal[2 * i + j]
+                                            + "' is no hexadecimal digit");
             byte = 16 * byte + static_cast<unsigned>(digit - digits);
         }
         bytes[i] = static_cast<unsigned char>(byte);
@@ -84,17 +86,24 @@ void ScGeomConicPP::pyRegisterClass(py::object scope)
     // What a functor with patch=True found; read only, since each step makes it anew.
     const auto ofPatch = [&](const char* name, auto member, const char* text) {
         using Value = typename Pointed<decltype(member)>::type;
-        registered.add_property(name, pythonFunction<Value, const ScGeomConicPP&>(
-                                          [member](const ScGeomConicPP& geom) { return Value(geom.patch().*member); }), text);
+        registered.add_property(name, pythonFunction<Value, const ScGeomConicPP&>([member](const ScGeomConicPP& geom) {
+                                    return Value(geom.patch().*member);
+                                }),
+                                text);
     };
     ofPatch("contactArea", &ContactPatch::area, "Area of the contact patch, m^2; 0 without one.");
-    ofPatch("couple", &ContactPatch::couple, "Couple of the pressure on body 2 about the normal, over the stiffness per area, m^4.");
-    ofPatch("twistLever", &ContactPatch::twistLever, "Lever of friction against twist, m: it holds up to friction * normal force * lever.");
+    ofPatch("couple", &ContactPatch::couple,
+            "Couple of the pressure on body 2 about the normal, over the stiffness per area, m^4.");
+    ofPatch("twistLever", &ContactPatch::twistLever,
+            "Lever of friction against twist, m: it holds up to friction * normal force * lever.");
     ofPatch("polarMoment", &ContactPatch::polarMoment, "Polar moment of the patch's area about contactPoint, m^4.");
-    ofPatch("largestDepth", &ContactPatch::largestDepth, "Largest depth on the patch, m: pressure over stiffness per area.");
-    ofPatch("patchEnergy", &ContactPatch::energy, "Elastic energy over the stiffness per area, m^4; computed if O.trackEnergy.");
+    ofPatch("largestDepth", &ContactPatch::largestDepth,
+            "Largest depth on the patch, m: pressure over stiffness per area.");
+    ofPatch("patchEnergy", &ContactPatch::energy,
+            "Elastic energy over the stiffness per area, m^4; computed if O.trackEnergy.");
     ofPatch("centroid", &ContactPatch::centroid, "Centroid of the patch, from contactPoint, m.");
-    ofPatch("patchOfPoint", &ContactPatch::ofPoint, "Whether no patch was found in the last step, and the contact point stands in for it.");
+    ofPatch("patchOfPoint", &ContactPatch::ofPoint,
+            "Whether no patch was found in the last step, and the contact point stands in for it.");
 }
 
 template <class Archive> void ScGeomConicPP::serialize(Archive& archive, unsigned version)

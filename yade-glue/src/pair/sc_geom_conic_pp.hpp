@@ -45,7 +45,8 @@ public:
     } left;
     // Not saved: made again by the first look after loading, and after saving.
     KeptApart apart;
-    // Saved but for its last contact. Last: in each step a contact reads what stands before, the beginning of `apart`, and this.
+    // Saved but for its last contact. Last: in each step a contact reads what stands before, the beginning of `apart`,
+    // and this.
     pp_pair_state state {};
 
     // Of the last look, if the functor is told to find it; not saved. Only pairs that have one take the room for it.
@@ -70,8 +71,8 @@ public:
         return keptPatch.get();
     }
 
-    // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a save as
-    // one that is loaded from it does. By the thread that looks, since a script may save from another.
+    // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a
+    // save as one that is loaded from it does. By the thread that looks, since a script may save from another.
     void dropIfSaved()
     {
         if (!saved.load(std::memory_order_relaxed))
@@ -80,8 +81,8 @@ public:
         forgetUnsaved();
     }
 
-    // Whether a bond holds the pair, so that no functor need find its contact. Not saved: the law says so in each step. The contact
-    // after it is a new one, with no memory of those before.
+    // Whether a bond holds the pair, so that no functor need find its contact. Not saved: the law says so in each step.
+    // The contact after it is a new one, with no memory of those before.
     bool isHeldByBond() const { return heldByBond; }
     void setHeldByBond(bool held)
     {

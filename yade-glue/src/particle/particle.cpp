@@ -18,8 +18,9 @@ namespace {
     // All seven attributes, of a Definition or a shape.
     template <class Other> bool sameAttributes(const Definition& one, const Other& other)
     {
-        return sameBits(one.r, other.r) && sameBits(one.k, other.k) && sameBits(one.R, other.R) && sameBits(one.a, other.a)
-            && sameBits(one.b, other.b) && sameBits(one.c, other.c) && sameBits(one.d, other.d);
+        return sameBits(one.r, other.r) && sameBits(one.k, other.k) && sameBits(one.R, other.R)
+            && sameBits(one.a, other.a) && sameBits(one.b, other.b) && sameBits(one.c, other.c)
+            && sameBits(one.d, other.d);
     }
 
     std::uint64_t nextSerial()
@@ -74,7 +75,8 @@ bool Definition::listsAgree() const
     return a.size() == b.size() && a.size() == c.size() && a.size() == d.size();
 }
 
-// One particle for all bodies of one shape: the planes of a scene then stay in the caches. Shapes are compared bit for bit.
+// One particle for all bodies of one shape: the planes of a scene then stay in the caches. Shapes are compared bit for
+// bit.
 std::shared_ptr<const Particle> Particle::make(Definition definition)
 {
     static std::mutex& mutex = *new std::mutex;

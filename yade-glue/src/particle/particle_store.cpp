@@ -18,7 +18,8 @@ std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade
                                                     const yade::PotentialParticle& shape)
 {
     return findOrMake(
-        owner, &shape, nullptr, {}, [&](const Entry& entry) { return !entry.kind && entry.particle->definition.describes(shape); },
+        owner, &shape, nullptr, {},
+        [&](const Entry& entry) { return !entry.kind && entry.particle->definition.describes(shape); },
         [&] { return Definition::of(shape); });
 }
 
@@ -35,9 +36,9 @@ std::shared_ptr<const Particle> ParticleStore::find(const boost::shared_ptr<yade
 }
 
 template <class Describes, class MakeDefinition>
-std::shared_ptr<const Particle> ParticleStore::findOrMake(const boost::shared_ptr<yade::Shape>& owner, const void* address,
-                                                          const StandIn* kind, const StandIn::Measures& measures,
-                                                          Describes describes, MakeDefinition definitionOf)
+std::shared_ptr<const Particle>
+ParticleStore::findOrMake(const boost::shared_ptr<yade::Shape>& owner, const void* address, const StandIn* kind,
+                          const StandIn::Measures& measures, Describes describes, MakeDefinition definitionOf)
 {
     Shard& shard = shardOf(address);
     Definition definition;

@@ -49,8 +49,9 @@ private:
 
     // describes(entry): whether the entry is still right; definition(): of a particle that is made, under the lock.
     template <class Describes, class MakeDefinition>
-    std::shared_ptr<const Particle> findOrMake(const boost::shared_ptr<yade::Shape>& owner, const void* address, const StandIn* kind,
-                                               const StandIn::Measures& measures, Describes describes, MakeDefinition definitionOf);
+    std::shared_ptr<const Particle> findOrMake(const boost::shared_ptr<yade::Shape>& owner, const void* address,
+                                               const StandIn* kind, const StandIn::Measures& measures,
+                                               Describes describes, MakeDefinition definitionOf);
     Shard& shardOf(const void* address);
     static void sweep(Shard& shard);
 

@@ -23,9 +23,10 @@ namespace {
 
     // --- Cylinder: a segment swept by a ball, k = 0, six planes. Measures: radius, segment.
     //
-    // With the segment along u from the origin to u l, and v, w perpendicular to it and to each other, the planes of normals ±v and ±w
-    // at distance 0 give <v.x>^2 + <-v.x>^2 + <w.x>^2 + <-w.x>^2, which is the squared distance to the axis, and those of ±u at l and
-    // 0 the squared distance along it beyond an end: together, the squared distance to the segment, exactly.
+    // With the segment along u from the origin to u l, and v, w perpendicular to it and to each other, the planes of
+    // normals ±v and ±w at distance 0 give <v.x>^2 + <-v.x>^2 + <w.x>^2 + <-w.x>^2, which is the squared distance to
+    // the axis, and those of ±u at l and 0 the squared distance along it beyond an end: together, the squared distance
+    // to the segment, exactly.
 
     Measures measuresOfCylinder(const yade::Shape& shape)
     {
@@ -41,8 +42,13 @@ namespace {
         // Without a length it is a ball, whatever the axis.
         const Vector3r u = length > 0 ? Vector3r(segment / length) : Vector3r(Vector3r::UnitX());
         const Vector3r v = u.unitOrthogonal(), w = u.cross(v);
-        return { { u[0], -u[0], v[0], -v[0], w[0], -w[0] }, { u[1], -u[1], v[1], -v[1], w[1], -w[1] },
-                 { u[2], -u[2], v[2], -v[2], w[2], -w[2] }, { length, 0, 0, 0, 0, 0 }, measures[0], 0, length + measures[0] };
+        return { { u[0], -u[0], v[0], -v[0], w[0], -w[0] },
+                 { u[1], -u[1], v[1], -v[1], w[1], -w[1] },
+                 { u[2], -u[2], v[2], -v[2], w[2], -w[2] },
+                 { length, 0, 0, 0, 0, 0 },
+                 measures[0],
+                 0,
+                 length + measures[0] };
     }
 
     Hull hullOfCylinder(const Measures& measures)
@@ -52,8 +58,9 @@ namespace {
 
     // --- Box: k = 0, six planes. Measures: half sizes.
 
-    // Edges and corners of a box are rounded by this share of its least half size: as little as makes no difference to any
-    // contact, and over a thousand times what the contact area needs (pp_contact_area). The faces stay where they are.
+    // Edges and corners of a box are rounded by this share of its least half size: as little as makes no difference to
+    // any contact, and over a thousand times what the contact area needs (pp_contact_area). The faces stay where they
+    // are.
     constexpr double boxRounding = 1e-6;
 
     Measures measuresOfBox(const yade::Shape& shape)
@@ -67,8 +74,13 @@ namespace {
         const Vector3r half(measures.data());
         const double r = boxRounding * half.minCoeff();
         const Vector3r d = half.array() - r;
-        return { { 1, -1, 0, 0, 0, 0 }, { 0, 0, 1, -1, 0, 0 }, { 0, 0, 0, 0, 1, -1 }, { d[0], d[0], d[1], d[1], d[2], d[2] },
-                 r, 0, half.norm() };
+        return { { 1, -1, 0, 0, 0, 0 },
+                 { 0, 0, 1, -1, 0, 0 },
+                 { 0, 0, 0, 0, 1, -1 },
+                 { d[0], d[0], d[1], d[1], d[2], d[2] },
+                 r,
+                 0,
+                 half.norm() };
     }
 
     Hull hullOfBox(const Measures& measures)
@@ -81,7 +93,8 @@ namespace {
     }
 
     template <class Shape>
-    StandIn row(Measures (*measures)(const yade::Shape&), Definition (*particle)(const Measures&), Hull (*hull)(const Measures&))
+    StandIn row(Measures (*measures)(const yade::Shape&), Definition (*particle)(const Measures&),
+                Hull (*hull)(const Measures&))
     {
         const auto isBaseOf = [](const yade::Shape& shape) { return dynamic_cast<const Shape*>(&shape) != nullptr; };
         return { typeid(Shape), isBaseOf, measures, particle, hull };
@@ -107,7 +120,8 @@ const StandIn* standInOf(const yade::Shape& shape)
 
 const StandIn* standInOfBase(const yade::Shape& shape)
 {
-    const auto found = std::find_if(std::rbegin(table), std::rend(table), [&](const StandIn& one) { return one.isBaseOf(shape); });
+    const auto found = std::find_if(std::rbegin(table), std::rend(table),
+                                    [&](const StandIn& one) { return one.isBaseOf(shape); });
     return found != std::rend(table) ? &*found : nullptr;
 }
 

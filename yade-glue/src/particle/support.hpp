@@ -6,8 +6,8 @@
 // outside. For y >= 0 with sum y_i n_i = e, and any x of the particle,
 //     e.x = sum y_i n_i.x <= sum y_i (d_i + <n_i.x - d_i>) <= y.d + |y| r/sqrt(1-k)
 // by Cauchy's inequality, since sum <n_i.x - d_i>^2 <= r^2/(1-k) there. The sharp polyhedron has the sum of the y_i in
-// the place of |y|. Any y gives a bound; here it is one of three planes that meet at the farthest corner, the corner's most
-// active first.
+// the place of |y|. Any y gives a bound; here it is one of three planes that meet at the farthest corner, the corner's
+// most active first.
 #pragma once
 
 #include "abi/base.hpp"

@@ -13,9 +13,13 @@
 
 namespace potential_particles {
 
-// What numbers of an attribute are none; an empty text where all are finite. From scripts and files: what is not would reach positions of bodies.
+// What numbers of an attribute are none; an empty text where all are finite. From scripts and files: what is not would
+// reach positions of bodies.
 inline std::string notFinite(double value) { return std::isfinite(value) ? "" : (std::ostringstream() << value).str(); }
-inline std::string notFinite(const yade::Vector3r& value) { return value.allFinite() ? "" : (std::ostringstream() << "(" << value.transpose() << ")").str(); }
+inline std::string notFinite(const yade::Vector3r& value)
+{
+    return value.allFinite() ? "" : (std::ostringstream() << "(" << value.transpose() << ")").str();
+}
 inline std::string notFinite(const yade::Quaternionr& value)
 {
     return value.coeffs().allFinite() ? "" : (std::ostringstream() << "(" << value.coeffs().transpose() << ")").str();
@@ -31,7 +35,8 @@ template <class Class, class Value> void requireFinite(const char* name, const V
 {
     const std::string found = notFinite(value);
     if (!found.empty())
-        throw std::invalid_argument(std::string(Entry<Class>::name) + ": " + name + " = " + found + ": it must be finite");
+        throw std::invalid_argument(std::string(Entry<Class>::name) + ": " + name + " = " + found
+                                    + ": it must be finite");
 }
 
 // False when the class has no attribute of that name.
@@ -53,7 +58,9 @@ template <class Class> bool setAttribute(Class& object, const std::string& key, 
 template <class Class> py::dict dictOfAttributes(const Class& object)
 {
     py::dict attributes;
-    Class::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) { attributes[name] = py::object(object.*member); });
+    Class::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) {
+        attributes[name] = py::object(object.*member);
+    });
     return attributes;
 }
 

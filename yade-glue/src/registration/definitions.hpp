@@ -54,8 +54,8 @@ template <class Class, class Base> PythonClass<Class, Base> registerClass()
     std::string Class::getBaseClassName(unsigned int index) const { return index == 0 ? Entry<Class>::base : ""; } \
     template <> void enterInFactory<Class>() { registerWithFactory<Class>(); }
 
-// Of a class that YADE's dispatchers know by an index of its own: its constructor calls takeClassIndex. An instance of the base,
-// because that is what knows the index; kept, because the index is a reference.
+// Of a class that YADE's dispatchers know by an index of its own: its constructor calls takeClassIndex. An instance of
+// the base, because that is what knows the index; kept, because the index is a reference.
 #define PP_INDEX_DEFINITIONS(Class, Base)                                                          \
     int& Class::modifyClassIndex()                                                                 \
     {                                                                                              \

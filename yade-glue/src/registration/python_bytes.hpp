@@ -16,7 +16,8 @@ namespace potential_particles {
 template <class Value> boost::python::object bytes(const std::vector<Value>& values)
 {
     const auto size = static_cast<Py_ssize_t>(values.size() * sizeof(Value));
-    return boost::python::object(boost::python::handle<>(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), size)));
+    return boost::python::object(
+        boost::python::handle<>(PyBytes_FromStringAndSize(reinterpret_cast<const char*>(values.data()), size)));
 }
 
 // Rows that numpy wrote.

@@ -60,7 +60,8 @@ namespace {
         void operator()(pp_rock* rock) const { pp_rock_free(rock); }
     };
 
-    template <class T, class Read> py::object all(Read read, const pp_rock& rock, std::uint64_t size, std::size_t width = 1)
+    template <class T, class Read>
+    py::object all(Read read, const pp_rock& rock, std::uint64_t size, std::size_t width = 1)
     {
         std::vector<T> values(size * width);
         std::size_t count = 0;
@@ -75,7 +76,9 @@ py::object jointFromCorners(const py::object& corners)
     const auto given = rowsOf<Point>(corners);
     std::vector<pp_joint> made(1);
     char message[PP_MESSAGE_SIZE] = "";
-    require(pp_joint_from_corners(given.empty() ? nullptr : given[0].at, given.size(), made.data(), message, sizeof message), message);
+    require(pp_joint_from_corners(given.empty() ? nullptr : given[0].at, given.size(), made.data(), message,
+                                  sizeof message),
+            message);
     return bytes(made);
 }
 
@@ -89,7 +92,8 @@ py::object jointsOfSet(const py::dict& set, const py::object& centre, double rea
     given.radius = field<double>(set, "radius");
     given.seed = field<std::uint64_t>(set, "seed");
     given.exponential = field<bool>(set, "exponential") ? 1 : 0;
-    const double at[] = { py::extract<double>(centre[0]), py::extract<double>(centre[1]), py::extract<double>(centre[2]) };
+    const double at[] = { py::extract<double>(centre[0]), py::extract<double>(centre[1]),
+                          py::extract<double>(centre[2]) };
     std::vector<pp_joint> joints(1000);
     std::size_t count = 0;
     char message[PP_MESSAGE_SIZE] = "";
@@ -103,8 +107,8 @@ py::object jointsOfSet(const py::dict& set, const py::object& centre, double rea
     return bytes(joints);
 }
 
-py::dict sliceRock(const py::object& domain, const py::object& joints, const py::object& outlines, const py::list& outlineCounts,
-                   const py::object& regionPlanes, const py::list& regionCounts,
+py::dict sliceRock(const py::object& domain, const py::object& joints, const py::object& outlines,
+                   const py::list& outlineCounts, const py::object& regionPlanes, const py::list& regionCounts,
                    const py::dict& settings, const py::object& progress)
 {
     using Plane = double[4];
@@ -126,11 +130,11 @@ py::dict sliceRock(const py::object& domain, const py::object& joints, const py:
     Listener listener { progress };
     char message[PP_MESSAGE_SIZE] = "";
     pp_rock* made = nullptr;
-    const pp_status status
-        = pp_rock_new(outer.empty() ? nullptr : outer[0].plane, outer.size(), planes.data(), planes.size(),
-                      corners.empty() ? nullptr : corners[0].at, ofJoints.data(), regions.empty() ? nullptr : regions[0].plane, ofRegions.data(),
-                      ofRegions.size(), &limits,
-                      progress.is_none() ? nullptr : &tell, &listener, &made, message, sizeof message);
+    const pp_status status = pp_rock_new(outer.empty() ? nullptr : outer[0].plane, outer.size(), planes.data(),
+                                         planes.size(), corners.empty() ? nullptr : corners[0].at, ofJoints.data(),
+                                         regions.empty() ? nullptr : regions[0].plane, ofRegions.data(),
+                                         ofRegions.size(), &limits, progress.is_none() ? nullptr : &tell, &listener,
+                                         &made, message, sizeof message);
     const std::unique_ptr<pp_rock, Free> rock(made);
     if (listener.raised)
         py::throw_error_already_set();

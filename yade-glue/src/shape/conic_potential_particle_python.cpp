@@ -69,7 +69,8 @@ namespace {
 py::tuple ConicPotentialParticle::pyMassProperties(double tolerance) const
 {
     const pp_mass_properties properties = massProperties(require(), tolerance);
-    return py::make_tuple(properties.volume, Vector3r(properties.centroid), matrix(properties.inertia), properties.error);
+    return py::make_tuple(properties.volume, Vector3r(properties.centroid), matrix(properties.inertia),
+                          properties.error);
 }
 
 double ConicPotentialParticle::pyVolume() const { return massProperties(require()).volume; }
@@ -122,7 +123,8 @@ namespace {
         setVertices(shape, values);
     }
 
-    template <class Value> void set(yade::PotentialParticle& shape, Value yade::PotentialParticle::*field, const Value& value)
+    template <class Value>
+    void set(yade::PotentialParticle& shape, Value yade::PotentialParticle::*field, const Value& value)
     {
         shape.*field = value;
     }
@@ -175,7 +177,8 @@ void ConicPotentialParticle::pyRegisterClass(py::object scope)
     using Shape = ConicPotentialParticle;
     auto registered = registerClass<Shape, Base>();
 
-    defining(registered, "a", &Base::a, "First component of each plane normal. See planes for setting all four lists at once.");
+    defining(registered, "a", &Base::a,
+             "First component of each plane normal. See planes for setting all four lists at once.");
     defining(registered, "b", &Base::b, "Second component of each plane normal.");
     defining(registered, "c", &Base::c, "Third component of each plane normal.");
     defining(registered, "d", &Base::d, "Offset of each plane from the centre.");
@@ -183,11 +186,14 @@ void ConicPotentialParticle::pyRegisterClass(py::object scope)
     defining(registered, "k", &Base::k, "Sphericity in [0, 1]: 0 rounded polyhedron, 1 sphere of radius R.");
     defining(registered, "R", &Base::R, "Radius of the shadow sphere, length; > 0 unless k = 0.");
 
-    boxed(registered, "AabbMinMax", &Base::AabbMinMax, "Whether the box of the vertices is used, or a cube of half size R.");
+    boxed(registered, "AabbMinMax", &Base::AabbMinMax,
+          "Whether the box of the vertices is used, or a cube of half size R.");
     boxed(registered, "minAabb", &Base::minAabb, "Extent below the centre, positive, local axes; for display.");
     boxed(registered, "maxAabb", &Base::maxAabb, "Extent above the centre, local axes; for display.");
-    boxed(registered, "minAabbRotated", &Base::minAabbRotated, "As minAabb, for contact detection when there are no vertices.");
-    boxed(registered, "maxAabbRotated", &Base::maxAabbRotated, "As maxAabb, for contact detection when there are no vertices.");
+    boxed(registered, "minAabbRotated", &Base::minAabbRotated,
+          "As minAabb, for contact detection when there are no vertices.");
+    boxed(registered, "maxAabbRotated", &Base::maxAabbRotated,
+          "As maxAabb, for contact detection when there are no vertices.");
     boxed(registered, "vertices", &Base::vertices, "Corners of a polyhedron that holds the particle, local axes.");
 
     registered
@@ -197,16 +203,19 @@ void ConicPotentialParticle::pyRegisterClass(py::object scope)
                           shape.settle();
                       }),
                       "All planes as a list of (a, b, c, d); sets the four lists at once.")
-        .add_property("automaticBox", +[](const Shape& shape) { return shape.automaticBox; }, &Shape::pySetAutomaticBox,
-                      "Whether the box attributes are computed. Turned off by setting one of them.")
+        .add_property(
+            "automaticBox", +[](const Shape& shape) { return shape.automaticBox; }, &Shape::pySetAutomaticBox,
+            "Whether the box attributes are computed. Turned off by setting one of them.")
         .def("massProperties", &Shape::pyMassProperties, py::arg("tolerance") = usualTolerance,
-             "Volume, centroid, inertia matrix (as the attributes of these names), and an estimated bound on their relative error; "
+             "Volume, centroid, inertia matrix (as the attributes of these names), and an estimated bound on their "
+             "relative error; "
              "tolerance: what this error should be, 1e-12 to 1.")
         .add_property("volume", &Shape::pyVolume, "Volume, by quadrature over the true surface, to 1e-6.")
         .add_property("centroid", &Shape::pyCentroid, "Centroid in local axes; YADE wants it at the origin.")
         .add_property("inertia", &Shape::pyInertia,
                       "Inertia matrix about the local origin for density 1; State.inertia wants principal axes.")
-        .add_property("boundingRadius", &Shape::pyBoundingRadius, "Radius of a ball about the centre that holds the particle.")
+        .add_property("boundingRadius", &Shape::pyBoundingRadius,
+                      "Radius of a ball about the centre that holds the particle.")
         .def("potential", &Shape::pyPotential, py::arg("point"),
              "f at a point in local axes: < 0 inside, 0 on the surface, > 0 outside.")
         .def("surfaceDistance", &Shape::pySurfaceDistance, py::arg("directions"),

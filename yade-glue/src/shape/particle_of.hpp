@@ -19,13 +19,14 @@ inline const void* classOf(const yade::Shape& shape) { return *reinterpret_cast<
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, const yade::PotentialParticle& pp,
                                   std::shared_ptr<const Particle>& keeper)
 {
-    const auto* own = typeid(pp) == typeid(ConicPotentialParticle) ? static_cast<const ConicPotentialParticle*>(&pp) : nullptr;
+    const auto* own = typeid(pp) == typeid(ConicPotentialParticle) ? static_cast<const ConicPotentialParticle*>(&pp)
+                                                                   : nullptr;
     if (own)
         if (const Particle* particle = own->particle())
             return particle;
     keeper = ParticleStore::instance().find(shape, pp);
-    // Between these two looks a script in another thread may have finished one change of several attributes, by which the shape
-    // has its particle again, and have begun the next.
+    // Between these two looks a script in another thread may have finished one change of several attributes, by which
+    // the shape has its particle again, and have begun the next.
     if (own && keeper->pending())
         if (const Particle* particle = own->particle())
             return particle;
@@ -40,7 +41,8 @@ inline const yade::PotentialParticle* potentialParticle(const yade::Shape& shape
     return dynamic_cast<const yade::PotentialParticle*>(&shape);
 }
 
-// The same for every shape that is a particle: a PotentialParticle or one with a stand-in. Throws std::invalid_argument for others.
+// The same for every shape that is a particle: a PotentialParticle or one with a stand-in. Throws std::invalid_argument
+// for others.
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, std::shared_ptr<const Particle>& keeper)
 {
     const yade::Shape& one = *shape;

@@ -59,7 +59,8 @@ namespace {
             bool inProgress = true;
             long number = -1;
 
-            // With Python's lock. By way of Python because the place of these fields in YADE's Scene differs by version.
+            // With Python's lock. By way of Python because the place of these fields in YADE's Scene differs by
+            // version.
             static Step now()
             {
                 try {

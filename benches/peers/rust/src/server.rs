@@ -2,7 +2,8 @@
 //!
 //! `time GROUP WAY cold|warm SECONDS`: seconds a call, over whole passes through the pairs, from pose to pose and back.
 //! `answers GROUP WAY cold|warm`: what was found at the last pose, after a pass over those before it: a list in JSON of
-//! `null` (failed), `[]` (apart), or `[overlap, x, y, z of the point, x, y, z of the normal]`, overlap < 0: minus the distance.
+//! `null` (failed), `[]` (apart), or `[overlap, x, y, z of the point, x, y, z of the normal]`, overlap < 0: minus the
+//! distance.
 
 use crate::scene::{self, Group};
 use std::fmt::Write;
@@ -52,7 +53,8 @@ pub fn serve(make: impl Fn(&Group, &str) -> Option<Box<dyn Contestant>>) {
     }
 }
 
-/// Seconds a call. The first walk through the poses, untimed, brings code and data into the caches and fills the memories.
+/// Seconds a call. The first walk through the poses, untimed, brings code and data into the caches and fills the
+/// memories.
 fn time(contestant: &mut dyn Contestant, poses: usize, pairs: usize, warm: bool, least: f64) -> f64 {
     let walk = |contestant: &mut dyn Contestant| {
         let there_and_back = (0..poses).chain((1..poses - 1).rev());

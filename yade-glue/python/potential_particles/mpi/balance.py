@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bodies that change their worker, so that all workers have as many.
 
-mpy decides pair by pair of workers, after a run of the collider, and both of a pair use the filter below. Its own lets bodies
-go that have passed into the midst of the other worker's, and no others: a worker with too many keeps them as long as the
-border is a clean one.
+mpy decides pair by pair of workers, after a run of the collider, and both of a pair use the filter below. Its own lets
+bodies go that have passed into the midst of the other worker's, and no others: a worker with too many keeps them as
+long as the border is a clean one.
 """
 import numpy as np
 import yade
@@ -23,7 +23,9 @@ def balance(frequency):
 
 
 def _nearest(here, there, surplus):
-    """Bodies that go from this worker to another, which has 2 * surplus bodies less: YADE's choice, and those nearest to it."""
+    """Bodies that go from this worker to another, which has 2 * surplus bodies less: YADE's choice, and those nearest
+    to it.
+    """
     leaving = list(mpy.medianFilter(here, there, surplus))
     taken = set(leaving)
     bodies = O.bodies
@@ -42,7 +44,7 @@ def _nearest(here, there, surplus):
 def _reallocate(choose, blocking=True):
     before = set(O.subD.ids)
     _yades_reallocation(choose, blocking)
-    # A body that has changed its worker is there without those of its neighbours that the worker did not know. In mpy it stays
-    # so, and their contacts with it push on one side only, until the collider happens to run again.
+    # A body that has changed its worker is there without those of its neighbours that the worker did not know. In mpy
+    # it stays so, and their contacts with it push on one side only, until the collider happens to run again.
     if mpy.comm.allreduce(int(set(O.subD.ids) != before), op=mpy.MPI.MAX):
         mpy.parallelCollide()

@@ -13,8 +13,9 @@ from .ranks import ranks
 def divide(ids, axes=(0, 1)):
     """Gives each worker as many of the bodies `ids` as any other, one less at most, in boxes that lie side by side.
 
-    axes: along which the bodies may be divided. By default not along z: in a pile the upper bodies fall and the lower ones
-    carry, and a worker that had only the former would wait for the others. To be called on rank 0. All other bodies stay on
+    axes: along which the bodies may be divided. By default not along z: in a pile the upper bodies fall and the lower
+    ones carry, and a worker that had only the former would wait for the others. To be called on rank 0. All other
+    bodies stay on
     rank 0, which computes nothing but their motion: forces on them come from the workers.
     """
     workers = ranks() - 1
@@ -31,7 +32,8 @@ def divide(ids, axes=(0, 1)):
 
 
 def parts(positions, count, axes):
-    """Indices of the positions in `count` parts: halved, or as near to it as `count` allows, across their widest axis."""
+    """Indices of the positions in `count` parts: halved, or as near to it as `count` allows, across their widest axis.
+    """
     return list(_parts(positions, np.arange(len(positions)), count, axes))
 
 

@@ -13,7 +13,8 @@ try:
     from yade import mpy
 except ImportError as error:
     raise ImportError(
-        f"potential_particles.mpi needs YADE's module mpy and mpi4py (Debian package python3-mpi4py): {error}") from error
+        f"potential_particles.mpi needs YADE's module mpy and mpi4py (Debian package python3-mpi4py): {error}"
+    ) from error
 
 # Of mpy only what concerns the end of a run would be printed, once a rank.
 mpy.NO_OUTPUT = True
@@ -42,7 +43,9 @@ def share(value):
 
 
 def interrupted():
-    """Whether any rank was asked to stop by SIGINT or SIGUSR1 since `launch`. Collective: all ranks get the same answer."""
+    """Whether any rank was asked to stop by SIGINT or SIGUSR1 since `launch`. Collective: all ranks get the same
+    answer.
+    """
     return bool(mpy.comm.allreduce(int(_stop_asked), op=mpy.MPI.MAX))
 
 

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Bodies, contacts, counters and failures of all workers.
 
-A worker knows, beside its own bodies, those of others that come near: both sides of a border compute its contacts. What is
-summed over workers must therefore count a body, or a contact, on one of them only.
+A worker knows, beside its own bodies, those of others that come near: both sides of a border compute its contacts. What
+is summed over workers must therefore count a body, or a contact, on one of them only.
 """
 import numpy as np
 import yade
@@ -32,14 +32,13 @@ def owned_contacts():
 
 
 def states(ids):
-    """Of the bodies `ids`, on rank 0, a dictionary of arrays, a row a body: position and velocity of the centre, orientation
-    (w, x, y, z), angular velocity, and the rank that moves the body. None elsewhere. Collective.
+    """Of the bodies `ids`, on rank 0, a dictionary of arrays, a row a body: position and velocity of the centre,
+    orientation (w, x, y, z), angular velocity, and the rank that moves the body. None elsewhere. Collective.
 
     ids: on rank 0; KeyError if a body is on no rank.
     """
-    rows = [
-        (body.id, *body.state.pos, *body.state.vel, *_wxyz(body.state.ori), *body.state.angVel) for body in owned_bodies()
-    ]
+    rows = [(body.id, *body.state.pos, *body.state.vel, *_wxyz(body.state.ori), *body.state.angVel)
+            for body in owned_bodies()]
     gathered = gather(np.array(rows, float).reshape(-1, 14))
     if gathered is None:
         return None
@@ -80,7 +79,9 @@ def failures():
 
 
 def _functors():
-    """The contact functors of this rank, those of walls, facets and spheres among them: each rank has its own once the scene is divided."""
+    """The contact functors of this rank, those of walls, facets and spheres among them: each rank has its own once the
+    scene is divided.
+    """
     # By kind, since a ConicInteractionLoop is one.
     loops = [engine for engine in O.engines if isinstance(engine, yade.wrapper.InteractionLoop)]
     found = [functor for loop in loops for functor in loop.geomDispatcher.functors if hasattr(functor, "failureReport")]

@@ -10,8 +10,8 @@ from .ranks import mpy, rank, ranks
 
 O = yade.O
 
-# From these on, saving or loading takes more than some four seconds. YADE reports no progress and lets no other Python run
-# meanwhile, so that a line before and one after is all that can be said.
+# From these on, saving or loading takes more than some four seconds. YADE reports no progress and lets no other Python
+# run meanwhile, so that a line before and one after is all that can be said.
 MANY_BODIES, LARGE_FILE = 20_000, 50e6
 
 

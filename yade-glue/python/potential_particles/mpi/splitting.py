@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first division of a scene, which may have contacts already.
 
-Each worker starts from the whole scene, erases the bodies of others, and is sent those again that come near its own. mpy
+Each worker starts from the whole scene, erases the bodies of others, and is sent those again that come near its own.
+mpy
 loses the contacts between bodies of different ranks on that way, and with them their shear forces: a scene that
 was loaded would go on as another.
 """
@@ -37,7 +38,9 @@ def _collide_after_the_first_step():
 
 
 def _label_collider():
-    """mpy finds the collider by this label alone; without it, it would run one that is in no engine list, and miss contacts."""
+    """mpy finds the collider by this label alone; without it, it would run one that is in no engine list, and miss
+    contacts.
+    """
     yade.utils.typedEngine("InsertionSortCollider").label = "collider"
     # Labels become names where engines are set.
     O.engines = O.engines
@@ -54,7 +57,9 @@ def _contacts_across():
 
 
 def _make(first, second, geometry, physics):
-    """A contact by YADE's own functors, with these attributes: an object made by Python must not be left to a step to destroy."""
+    """A contact by YADE's own functors, with these attributes: an object made by Python must not be left to a step to
+    destroy.
+    """
     if O.interactions.has(first, second):
         O.interactions.erase(first, second)
     pair = yade.utils.createInteraction(first, second)

@@ -66,7 +66,8 @@ def _check_division():
     for body in O.bodies:
         if body.subdomain == 0 and body.dynamic and is_free(body):
             raise ValueError(
-                f"body {body.id} is free to move and on rank 0, from which workers get no positions: let mpi.divide give it to one")
+                f"body {body.id} is free to move and on rank 0, from which workers get no positions: let mpi.divide give it to one"
+            )
 
 
 def _name_files_by_rank():
@@ -93,8 +94,9 @@ def _check_workers():
                 raise ValueError(f"worker {worker} has no bodies left: start fewer ranks, or run with reallocate=0")
             if not met and ranks() > 2 and worker not in _told:
                 _told.add(worker)
-                print(f"worker {worker} meets no other worker: it keeps its {count:,} bodies, however unevenly they are divided",
-                      flush=True)
+                print(
+                    f"worker {worker} meets no other worker: it keeps its {count:,} bodies, however unevenly they are divided",
+                    flush=True)
 
 
 def _neighbours():

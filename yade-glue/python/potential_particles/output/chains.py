@@ -11,7 +11,9 @@ WIDEST, SIDES = 0.12, 8
 
 
 def branch(contact):
-    """Begin and end of the line of a contact: the centres of its bodies, and of one that is not moved by forces (walls) the contact point."""
+    """Begin and end of the line of a contact: the centres of its bodies, and of one that is not moved by forces (walls)
+    the contact point.
+    """
     ends = []
     for number in (contact.id1, contact.id2):
         body = yade.O.bodies[number]
@@ -25,11 +27,13 @@ def branch(contact):
 
 
 def tubes(contacts):
-    """(corners (n, 3, 3), normal force (n,)) of triangles: a tube along the line of each contact that bears a force, as wide as the root of its share of the largest.
+    """(corners (n, 3, 3), normal force (n,)) of triangles: a tube along the line of each contact that bears a force, as
+    wide as the root of its share of the largest.
 
     Above 0 where bodies push, below where they pull.
     """
-    rows = [(*branch(one), one.phys.normalForce.dot(one.geom.normal)) for one in contacts if hasattr(one.phys, "normalForce")]
+    rows = [(*branch(one), one.phys.normalForce.dot(one.geom.normal)) for one in contacts
+            if hasattr(one.phys, "normalForce")]
     rows = [row for row in rows if row[2] != 0.0]
     if not rows:
         return np.zeros((0, 3, 3)), np.zeros(0)
@@ -41,7 +45,8 @@ def tubes(contacts):
     across /= np.maximum(np.linalg.norm(across, axis=1), 1e-300)[:, None]
     radius = WIDEST * np.median(lengths) * np.sqrt(np.abs(force) / np.abs(force).max())
     angles = 2.0 * np.pi * np.arange(SIDES + 1) / SIDES
-    ring = radius[:, None, None] * (np.cos(angles)[:, None] * across[:, None] + np.sin(angles)[:, None] * np.cross(along, across)[:, None])
+    ring = radius[:, None, None] * (np.cos(angles)[:, None] * across[:, None]
+                                    + np.sin(angles)[:, None] * np.cross(along, across)[:, None])
     lower, upper = begin[:, None] + ring, end[:, None] + ring
     quads = [lower[:, :-1], lower[:, 1:], upper[:, 1:], upper[:, :-1]]
     triangles = np.stack([np.stack([quads[i] for i in corners], axis=2) for corners in ((0, 1, 2), (0, 2, 3))], axis=2)

@@ -26,7 +26,8 @@ class Rows:
 
 @dataclass
 class Triangles(Rows):
-    """Triangles in the world frame: corners and normals at them (n, 3, 3); colours (n, 3), 0 to 1; bodies: whose, (n,)."""
+    """Triangles in the world frame: corners and normals at them (n, 3, 3); colours (n, 3), 0 to 1; bodies: whose, (n,).
+    """
 
     corners: np.ndarray
     normals: np.ndarray
@@ -72,7 +73,8 @@ class ShapeMeshes:
 
 
 def drawn(bodies, meshes):
-    """Triangles of bodies, and those of boundaries: Box, Facet, Wall and shapes with isBoundary. (of bodies, of boundaries)
+    """Triangles of bodies, and those of boundaries: Box, Facet, Wall and shapes with isBoundary. (of bodies, of
+    boundaries)
 
     Says once of each kind of shape that it draws none.
     """
@@ -94,13 +96,14 @@ def drawn(bodies, meshes):
 
 
 def copies(local, positions, rotations, colours, bodies):
-    """Triangles of many bodies of one shape: local (of ShapeMeshes), positions (n, 3), rotations (n, 3, 3) local to world,
-    colours (n, 3), bodies (n,), their ids."""
+    """Triangles of many bodies of one shape: local (of ShapeMeshes), positions (n, 3), rotations (n, 3, 3) local to
+    world, colours (n, 3), bodies (n,), their ids.
+    """
     corners, normals = (np.einsum("bij,tcj->btci", np.asarray(rotations, float), array) for array in local)
     corners += np.asarray(positions, float)[:, None, None]
     count = len(local[0])
-    return Triangles(corners.reshape(-1, 3, 3), normals.reshape(-1, 3, 3), np.repeat(np.asarray(colours, float), count, axis=0),
-                     np.repeat(bodies, count))
+    return Triangles(corners.reshape(-1, 3, 3), normals.reshape(-1, 3, 3),
+                     np.repeat(np.asarray(colours, float), count, axis=0), np.repeat(bodies, count))
 
 
 def edges(triangles):
@@ -109,7 +112,9 @@ def edges(triangles):
     if not len(points):
         return np.zeros((0, 2, 3))
     # What is equal to 1e-6 of the scene is one point of a body.
-    keys = np.column_stack([np.repeat(triangles.bodies, 3), np.round((points - points.min(0)) / (1e-6 * np.ptp(points, axis=0).max()))])
+    keys = np.column_stack(
+        [np.repeat(triangles.bodies, 3),
+         np.round((points - points.min(0)) / (1e-6 * np.ptp(points, axis=0).max()))])
     first, number = np.unique(keys, axis=0, return_index=True, return_inverse=True)[1:]
     number = number.reshape(-1, 3)
     sides = np.sort(np.concatenate([number[:, [0, 1]], number[:, [1, 2]], number[:, [2, 0]]]), axis=1)
@@ -166,6 +171,8 @@ def _wall(body, low, high):
     reach = np.full(3, 1.5 * (high - low).max())
     reach[axis], middle[axis] = 0.0, body.state.pos[axis]
     # Two triangles, from both sides.
-    square = np.concatenate([np.roll(_cube()[:2], axis + 1 - 3, axis=2), np.roll(_cube()[:2], axis + 1 - 3, axis=2)[:, ::-1]])
+    square = np.concatenate(
+        [np.roll(_cube()[:2], axis + 1 - 3, axis=2),
+         np.roll(_cube()[:2], axis + 1 - 3, axis=2)[:, ::-1]])
     corners, normals = _flat(middle + reach * square)
     return Triangles(corners, normals, np.broadcast_to(np.array(body.shape.color), (4, 3)), np.full(4, body.id))

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""OpenGL without a display, for VTK: a context of EGL's surfaceless platform, which Mesa has, on the processor if need be.
+"""OpenGL without a display, for VTK: a context of EGL's surfaceless platform, which Mesa has, on the processor if need
+be.
 
 Debian's VTK makes contexts on an X display only, up to 9.3. It draws just as well in one that is made here.
 """
@@ -16,7 +17,8 @@ _OPENGL_3_2 = (0x3098, 3, 0x30FB, 2, 0x30FD, 1, 0x3038)  # major, minor, core pr
 
 
 def with_graphics(draw, *arguments):
-    """draw(window, *arguments) with a window of VTK that is nowhere on a screen; RuntimeError where OpenGL is not to be had.
+    """draw(window, *arguments) with a window of VTK that is nowhere on a screen; RuntimeError where OpenGL is not to be
+    had.
 
     It runs in a thread of its own: a thread may hold one context, and the caller's may hold that of YADE's 3-D window.
     """
@@ -38,7 +40,8 @@ def _draw(draw, arguments):
         window.SetIsCurrent(True)
         window.OffScreenRenderingOn()
         window.SetMultiSamples(0)
-        # GLEW, once it has found all functions, reports that there is no X display, upon which VTK leaves out its state.
+        # GLEW, once it has found all functions, reports that there is no X display, upon which VTK leaves out its
+        # state.
         shown = vtkObject.GetGlobalWarningDisplay()
         vtkObject.GlobalWarningDisplayOff()
         try:
@@ -65,7 +68,8 @@ def _context():
     config, count = ctypes.c_void_p(), ctypes.c_int()
     egl.eglChooseConfig(display, _integers(_ANY_SURFACE), ctypes.byref(config), 1, ctypes.byref(count))
     _done(egl, count.value, "format of pixels")
-    context = ctypes.c_void_p(_done(egl, egl.eglCreateContext(display, config, None, _integers(_OPENGL_3_2)), "OpenGL 3.2"))
+    context = ctypes.c_void_p(
+        _done(egl, egl.eglCreateContext(display, config, None, _integers(_OPENGL_3_2)), "OpenGL 3.2"))
     try:
         def make_current():
             _done(egl, egl.eglMakeCurrent(display, None, None, context), "context")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What VTK's shaders add to a surface: the shadow of the sun, the light of the sky, and boundaries that fade into the paper.
+"""What VTK's shaders add to a surface: the shadow of the sun, the light of the sky, and boundaries that fade into the
+paper.
 
 Coordinates are those of the picture: the middle of the scene at 0, its radius 1.
 """
@@ -21,7 +22,8 @@ ABOVE = 1.5 * 2.0 * SUN_REACH / SUN_PIXELS  # along the normal, so that no surfa
 # Boundaries fade into the paper between these distances from the middle.
 FADE = (1.1, 2.2)
 
-# In the coordinates of the camera, as VTK's shaders are. A point is as far in shadow as the pixels of the map around it.
+# In the coordinates of the camera, as VTK's shaders are. A point is as far in shadow as the pixels of the map around
+# it.
 _SHADOW = """
   vec3 onMap = mat3({turn}) * (vertexVCVSOutput.xyz + {above} * normalVCVSOutput) + vec3({shift});
   float seen = 0.0;
@@ -87,7 +89,9 @@ def read(window, depth=False):
 
 
 def light(actor, shadows, view, fading):
-    """Lets what is in shadows (sun_map; or None) shadow an actor in a picture of this view, and the actor vanish far away if it fades."""
+    """Lets what is in shadows (sun_map; or None) shadow an actor in a picture of this view, and the actor vanish far
+    away if it fades.
+    """
     right, up, forward = view.axes()
     to_camera = np.stack([right, up, -forward])
     code = _SKY.format(sky=_numbers(to_camera @ SKY)) + "//VTK::Light::Impl\n"

@@ -13,8 +13,8 @@ from ..shape import Shape
 class Mesh:
     """Triangles, local frame of their shape.
 
-    points (n, 3); normals (n, 3), of the surface at the points, unit length, outwards; triangles (m, 3), indices of points,
-    counter-clockwise from outside; error: no point of the surface is further from the mesh, length.
+    points (n, 3); normals (n, 3), of the surface at the points, unit length, outwards; triangles (m, 3), indices of
+    points, counter-clockwise from outside; error: no point of the surface is further from the mesh, length.
     """
 
     points: np.ndarray
@@ -25,14 +25,17 @@ class Mesh:
     def moved(self, position, orientation):
         """The mesh of the shape at a position, turned by a quaternion of YADE."""
         turn = rotation_matrix(orientation)
-        return Mesh(self.points @ turn.T + np.asarray(position, float), self.normals @ turn.T, self.triangles, self.error)
+        return Mesh(self.points @ turn.T + np.asarray(position, float), self.normals @ turn.T, self.triangles,
+                    self.error)
 
 
 def mesh(shape, tolerance=1e-3):
-    """The surface of a PotentialParticle, or of a Shape of this package, as a Mesh: closed, inside the particle, its points on the surface.
+    """The surface of a PotentialParticle, or of a Shape of this package, as a Mesh: closed, inside the particle, its
+    points on the surface.
 
-    tolerance: the largest distance from the surface to the mesh, over the bounding radius of the particle, 1e-5 to 1. The bound
-    that the mesh keeps is its `error`. ValueError for a tolerance out of range and a shape that is no particle.
+    tolerance: the largest distance from the surface to the mesh, over the bounding radius of the particle, 1e-5 to 1.
+    The bound that the mesh keeps is its `error`. ValueError for a tolerance out of range and a shape that is no
+    particle.
     """
     if isinstance(shape, Shape):
         shape = shape.particle()
@@ -44,8 +47,8 @@ def mesh(shape, tolerance=1e-3):
 def save_mesh(file, what, tolerance=1e-3, position=(0, 0, 0), orientation=None):
     """Writes a mesh to a file .stl (binary) or .vtp (with the normals of the surface at the points).
 
-    what: a shape, a Mesh, or a body, which is written where it stands. position, orientation: where a shape or a Mesh is put.
-    The file is written whole or not at all. ValueError for another ending.
+    what: a shape, a Mesh, or a body, which is written where it stands. position, orientation: where a shape or a Mesh
+    is put. The file is written whole or not at all. ValueError for another ending.
     """
     ending = os.path.splitext(file)[1]
     if ending not in (".stl", ".vtp"):

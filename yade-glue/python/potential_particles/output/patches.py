@@ -15,7 +15,8 @@ from .mesh import rotation_matrix
 class Patches(Rows):
     """Triangles on contact patches, world frame.
 
-    corners (n, 3, 3), m; pressure at them (n, 3), Pa, below 0 where a bond is pulled; contacts (n,), rows of the contacts they belong to.
+    corners (n, 3, 3), m; pressure at them (n, 3), Pa, below 0 where a bond is pulled; contacts (n,), rows of the
+    contacts they belong to.
     """
 
     corners: np.ndarray
@@ -28,17 +29,21 @@ class Patches(Rows):
 
 
 def patches(contacts):
-    """The Patches of interactions: those of a functor with patch=True, each in its mean plane, and bonds; none of other contacts.
+    """The Patches of interactions: those of a functor with patch=True, each in its mean plane, and bonds; none of other
+    contacts.
 
     Between flat faces the corners of a patch are exact, and the pressure is linear but for the rounding of the edges.
     """
-    return Patches.together([_bond(number, contact) if getattr(contact.phys, "bonded", False) else _patch(number, contact)
-                             for number, contact in enumerate(contacts)])
+    return Patches.together([
+        _bond(number, contact) if getattr(contact.phys, "bonded", False) else _patch(number, contact)
+        for number, contact in enumerate(contacts)
+    ])
 
 
 def _patch(number, contact):
     one, other = (yade.O.bodies[i] for i in (contact.id1, contact.id2))
-    corners, depth = _glue.patch_surface(contact.geom, one.shape, one.state, other.shape, other.state, image_shift(contact))
+    corners, depth = _glue.patch_surface(contact.geom, one.shape, one.state, other.shape, other.state,
+                                         image_shift(contact))
     depth = np.frombuffer(depth).reshape(-1, 3)
     return Patches(np.frombuffer(corners).reshape(-1, 3, 3), _stiffness(contact) * depth, np.full(len(depth), number))
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of the scene without a display, drawn by VTK: sun, shadows, darkened gaps, and boundaries one can see through."""
+"""Pictures of the scene without a display, drawn by VTK: sun, shadows, darkened gaps, and boundaries one can see
+through.
+"""
 import os
 
 import numpy as np
@@ -31,15 +33,17 @@ NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are he
 def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None, patches=False, chains=False):
     """Draws the present scene to a PNG: particles, spheres, boxes, facets and walls, each in the colour of its shape.
 
-    towards: direction from the scene to the eye, world axes. size: width and height in pixels. tolerance: of the meshes of
-    particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without them, all. patches: bodies become
-    transparent, and contact patches between them (functors with patch=True, bonds) show their pressure, with a scale in pascals. chains: the same with force
-    chains, a tube along the line between the centres of each contact, its width and colour by the normal force, with a scale in newtons.
-    The camera stands so that all bodies are seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would
-    hide them. Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install
-    where there is no OpenGL.
+    towards: direction from the scene to the eye, world axes. size: width and height in pixels. tolerance: of the meshes
+    of particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without
+    them, all. patches: bodies become transparent, and contact patches between them (functors with patch=True, bonds)
+    show their pressure, with a scale in pascals. chains: the same with force chains, a tube along the line between the
+    centres of each contact, its width and colour by the normal force, with a scale in newtons. The camera stands so
+    that all bodies are seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would hide them.
+    Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install where
+    there is no OpenGL.
     """
-    scene = [body for body in yade.O.bodies if body is not None] if bodies is None else [yade.O.bodies[i] for i in bodies]
+    scene = [body for body in yade.O.bodies
+             if body is not None] if bodies is None else [yade.O.bodies[i] for i in bodies]
     width, height = (whole(one, 16, 20_000, "size") for one in size)
     if tolerance is None:
         tolerance = fitting_tolerance(sum(not body.isClump for body in scene), size)
@@ -60,8 +64,12 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
         corners, values, name, unit = shown.corners, shown.pressure, "pressure", "Pa"
     view = framing(of_bodies, of_boundaries, towards, (width - BAR) / height)
     scale, one, prefix = _scale(values)
-    coloured = Triangles(corners, np.zeros_like(corners), scale.to_rgba(values / one)[..., :3], np.zeros(len(corners), int))
-    _write(file, _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale, f"{name}, {prefix}{unit}"))
+    coloured = Triangles(corners, np.zeros_like(corners),
+                         scale.to_rgba(values / one)[..., :3], np.zeros(len(corners), int))
+    _write(
+        file,
+        _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale,
+                    f"{name}, {prefix}{unit}"))
 
 
 def _write(file, image):
@@ -139,7 +147,9 @@ def _render(window, of_bodies, of_boundaries, view, width, height, within):
 
 
 def _actor(triangles, middle, radius, colour=None):
-    """Triangles as an actor of VTK, None without any; each, or each of its corners, in its own colour where there is not one for all."""
+    """Triangles as an actor of VTK, None without any; each, or each of its corners, in its own colour where there is
+    not one for all.
+    """
     from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
     if not len(triangles.corners):
         return None
@@ -177,7 +187,8 @@ def _scale(values):
     """Colours for values in a multiple of their unit, that multiple, and its prefix."""
     from matplotlib import cm, colors
     largest = np.abs(values).max(initial=0.0)
-    one, prefix = next(((size, name) for size, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if largest >= size), (1.0, ""))
+    one, prefix = next(((size, name) for size, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if largest >= size),
+                       (1.0, ""))
     span = colors.Normalize(values.min(initial=0.0) / one, (values.max(initial=0.0) or largest or 1.0) / one)
     return cm.ScalarMappable(span, PRESSURE_MAP), one, prefix
 
@@ -195,7 +206,9 @@ def _with_scale(image, scale, label):
 
 
 def _renderer(view, occlusion=True):
-    """A renderer with a camera, the sun, and gaps and contacts that are darker than what the sky reaches, if `occlusion` is wanted."""
+    """A renderer with a camera, the sun, and gaps and contacts that are darker than what the sky reaches, if
+    `occlusion` is wanted.
+    """
     from vtkmodules.vtkRenderingCore import vtkLight, vtkRenderer
     from vtkmodules.vtkRenderingOpenGL2 import vtkRenderStepsPass, vtkSSAOPass
     from .light import FADE, SUN

@@ -22,18 +22,19 @@ class Recorder:
         record = Recorder("out/pile")
         O.engines += [PyRunner(command="record()", iterPeriod=1000)]
 
-    name: path without an ending; its folder is made. Each frame is <name>.bodies.<step>.vtp and <name>.contacts.<step>.vtp,
-    and the series <name>.bodies.pvd and <name>.contacts.pvd, which ParaView opens, grow with it. Each file appears under its
-    name when it is whole, so that a run may be interrupted at any time.
-    Bodies are triangles, with id, material (its id, or -1), mask, rank, velocity and angular_velocity (world axes) of their body.
-    Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and shear_force
-    (world axes, on body id2), id1 and id2; forces are 0 for physics without them. With patch=True the point is the centre of pressure.
-    <name>.chains.<step>.vtp has the same contacts as lines between the centres of their bodies, from wall to centre at walls: force chains (in ParaView: Tube, by `push`,
-    the normal force, above 0 where bodies push).
-    Where a contact functor has patch=True there is <name>.patches.<step>.vtp, too, with its series: the contact patches and bonds as triangles
-    with pressure (Pa, at their corners), id1 and id2.
+    name: path without an ending; its folder is made. Each frame is <name>.bodies.<step>.vtp and
+    <name>.contacts.<step>.vtp, and the series <name>.bodies.pvd and <name>.contacts.pvd, which ParaView opens, grow
+    with it. Each file appears under its name when it is whole, so that a run may be interrupted at any time. Bodies are
+    triangles, with id, material (its id, or -1), mask, rank, velocity and angular_velocity (world axes) of their body.
+    Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and
+    shear_force (world axes, on body id2), id1 and id2; forces are 0 for physics without them. With patch=True the point
+    is the centre of pressure. <name>.chains.<step>.vtp has the same contacts as lines between the centres of their
+    bodies, from wall to centre at walls: force chains (in ParaView: Tube, by `push`, the normal force, above 0 where
+    bodies push). Where a contact functor has patch=True there is <name>.patches.<step>.vtp, too, with its series: the
+    contact patches and bonds as triangles with pressure (Pa, at their corners), id1 and id2.
     tolerance: of the meshes of particles (see `mesh`). ids: of the bodies that are wanted; without them, all.
-    On several ranks (potential_particles.mpi) it is to be called by all of them, between two calls of mpi.run; rank 0 writes.
+    On several ranks (potential_particles.mpi) it is to be called by all of them, between two calls of mpi.run; rank 0
+    writes.
     """
 
     def __init__(self, name, tolerance=0.02, ids=None):
@@ -72,14 +73,17 @@ class Recorder:
         points = triangles.corners.reshape(-1, 3).astype(np.float32)
         normals = triangles.normals.reshape(-1, 3).astype(np.float32)
         cells = {name: column[row] for name, column in columns.items()}
-        return vtk_files.triangles(points, np.arange(3 * count).reshape(-1, 3), {"normal": normals}, cells, normals="normal")
+        return vtk_files.triangles(points,
+                                   np.arange(3 * count).reshape(-1, 3), {"normal": normals}, cells, normals="normal")
 
     @staticmethod
     def _patches(parts, columns):
         made = Patches.together(parts)
         count = len(made.corners)
-        return vtk_files.triangles(made.corners.reshape(-1, 3), np.arange(3 * count).reshape(-1, 3), {"pressure": made.pressure.ravel()},
-                                   {name: columns[name][made.contacts] for name in ("id1", "id2")})
+        return vtk_files.triangles(made.corners.reshape(-1, 3),
+                                   np.arange(3 * count).reshape(-1, 3), {"pressure": made.pressure.ravel()},
+                                   {name: columns[name][made.contacts]
+                                    for name in ("id1", "id2")})
 
     def _write(self, kind, data):
         step = yade.O.iter
@@ -115,8 +119,8 @@ def _contact(contact, rank):
     geometry, physics = contact.geom, contact.phys
     begin, end = chains.branch(contact)
     forces = [getattr(physics, name, (0.0, 0.0, 0.0)) for name in ("normalForce", "shearForce")]
-    return (*geometry.contactPoint, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1, contact.id2,
-            *begin, *end)
+    return (*geometry.contactPoint, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1,
+            contact.id2, *begin, *end)
 
 
 def _rows(things, rank, row, layout):

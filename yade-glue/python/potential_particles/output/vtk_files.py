@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Files for ParaView, by VTK's Python modules (Debian's python3-vtk9), and .stl. Each is written whole or not at all."""
+"""Files for ParaView, by VTK's Python modules (Debian's python3-vtk9), and .stl. Each is written whole or not at all.
+"""
 import numpy as np
 
 from ..files import written
@@ -10,7 +11,8 @@ def _vtk():
         from vtkmodules import vtkCommonCore, vtkCommonDataModel, vtkIOXML
         from vtkmodules.util import numpy_support
     except ImportError as error:
-        raise ImportError(f"files for ParaView need VTK's Python modules: apt install python3-vtk9 ({error})") from error
+        raise ImportError(
+            f"files for ParaView need VTK's Python modules: apt install python3-vtk9 ({error})") from error
     return vtkCommonCore, vtkCommonDataModel, vtkIOXML, numpy_support
 
 
@@ -33,7 +35,8 @@ def polygons(points, polygons):
     if isinstance(polygons, np.ndarray):
         offsets, corners = np.arange(len(polygons) + 1) * polygons.shape[1], polygons.ravel()
     else:
-        offsets, corners = np.cumsum([0, *map(len, polygons)]), np.array([corner for polygon in polygons for corner in polygon])
+        offsets, corners = np.cumsum([0, *map(len, polygons)]), np.array(
+            [corner for polygon in polygons for corner in polygon])
     cells.SetData(_array(offsets.astype(np.int64)), _array(corners.astype(np.int64)))
     data.SetPolys(cells)
     return data

@@ -3,12 +3,13 @@
 
     import potential_particles.potential_blocks
 
-as the first line of such a script makes its names known everywhere, as those of YADE are; the rest stays as it is. YADE's own
-potential_utils finds them, too.
+as the first line of such a script makes its names known everywhere, as those of YADE are; the rest stays as it is.
+YADE's own potential_utils finds them, too.
 
-    PotentialBlock                   a ConicPotentialParticle with k = 0 in its principal frame, which knows volume, inertia, position, orientation, connectivity
+    PotentialBlock                   a ConicPotentialParticle with k = 0 in its principal frame, with volume, inertia,
+                                     position, orientation, connectivity
     PotentialBlock2AABB              PotentialParticle2AABB
-    Ig2_PB_PB_ScGeom                 Ig2_PP_PP_ScGeom_Conic with patch=True: area and contact point are those of the patch
+    Ig2_PB_PB_ScGeom                 Ig2_PP_PP_ScGeom_Conic with patch=True: area and contact point of the patch
     Ip2_FrictMat_FrictMat_KnKsPBPhys Ip2_FrictMat_FrictMat_KnKsPhys_Block
     KnKsPBPhys                       YADE's KnKsPhys
     Law2_SCG_KnKsPBPhys_KnKsPBLaw    YADE's Law2_SCG_KnKsPhys_KnKsLaw
@@ -25,11 +26,15 @@ import yade
 from .block import PotentialBlock
 from .generation import BlockGen
 
-__all__ = ["BlockGen", "Gl1_PotentialBlock", "Ig2_PB_PB_ScGeom", "Ip2_FrictMat_FrictMat_KnKsPBPhys", "KnKsPBPhys", "Law2_SCG_KnKsPBPhys_KnKsPBLaw",
-           "PotentialBlock", "PotentialBlock2AABB", "PotentialBlockVTKRecorder"]
+__all__ = [
+    "BlockGen", "Gl1_PotentialBlock", "Ig2_PB_PB_ScGeom", "Ip2_FrictMat_FrictMat_KnKsPBPhys", "KnKsPBPhys",
+    "Law2_SCG_KnKsPBPhys_KnKsPBLaw", "PotentialBlock", "PotentialBlock2AABB", "PotentialBlockVTKRecorder"
+]
 
 if hasattr(yade.wrapper, "PotentialBlock"):
-    raise ImportError("this YADE was built with ENABLE_POTENTIAL_BLOCKS and has a PotentialBlock of its own: leave potential_particles.potential_blocks out")
+    raise ImportError(
+        "this YADE was built with ENABLE_POTENTIAL_BLOCKS and has a PotentialBlock of its own: leave potential_particles.potential_blocks out"
+    )
 
 PotentialBlock2AABB = yade.wrapper.PotentialParticle2AABB
 KnKsPBPhys = yade.wrapper.KnKsPhys

@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The shape that scripts call PotentialBlock.
 
-Given planes a x + b y + c z = d and r, its faces lie at the distance d + r along unit normals. It moves its origin to the centroid and its axes to principal axes, if they are
-not there already; `position` and `orientation` say from where: x_given = position + orientation x.
+Given planes a x + b y + c z = d and r, its faces lie at the distance d + r along unit normals. It moves its origin to
+the centroid and its axes to principal axes, if they are not there already; `position` and `orientation` say from where:
+x_given = position + orientation x.
 
-YADE's potential blocks have sharp edges: r is that of a body within, whose normals they take. Here edges are rounded, by a share of the thickness: the force on a patch grows
-up to an overlap of twice the rounding, so that it must not be too small either. The faces stay where they are.
+YADE's potential blocks have sharp edges: r is that of a body within, whose normals they take. Here edges are rounded,
+by a share of the thickness: the force on a patch grows up to an overlap of twice the rounding, so that it must not be
+too small either. The faces stay where they are.
 """
 import numpy as np
 from yade.wrapper import ConicPotentialParticle
@@ -21,18 +23,21 @@ ROUNDING = 1e-6
 EDGES = 0.05
 
 # What a script may give and YADE computes.
-_COMPUTED = ("AabbMinMax", "minAabb", "maxAabb", "minAabbRotated", "maxAabbRotated", "k", "volume", "inertia", "position", "orientation", "vertices", "connectivity", "fixedNormal")
+_COMPUTED = ("AabbMinMax", "minAabb", "maxAabb", "minAabbRotated", "maxAabbRotated", "k", "volume", "inertia",
+             "position", "orientation", "vertices", "connectivity", "fixedNormal")
 # Attributes that blocks carry and no functor here reads.
 _CARRIED = {"erase": False, "intactRock": [], "phi_b": [], "phi_r": [], "cohesion": [], "tension": [], "jointType": []}
 _LININGS = ("isLining", "isBolt")
-_OF_LININGS = ("liningStiffness", "liningFriction", "liningLength", "liningTensionGap", "liningNormalPressure", "liningTotalPressure")
+_OF_LININGS = ("liningStiffness", "liningFriction", "liningLength", "liningTensionGap", "liningNormalPressure",
+               "liningTotalPressure")
 
 
 class PotentialBlock(ConicPotentialParticle):
     """A convex block of the planes a, b, c, d, whose faces lie at d + r; keyword arguments as in YADE.
 
-    r: length, above 0; d + r is the distance of a face. Edges are rounded by a twentieth of the thickness, and `r` and `d` are then those of that block, with the
-    same faces. Volume and inertia are those of the sharp block. R: 0 for half of the distance of the farthest corners. k and the boxes (AabbMinMax, minAabb, ...) are computed, and so are
+    r: length, above 0; d + r is the distance of a face. Edges are rounded by a twentieth of the thickness, and `r` and
+    `d` are then those of that block, with the same faces. Volume and inertia are those of the sharp block. R: 0 for
+    half of the distance of the farthest corners. k and the boxes (AabbMinMax, minAabb, ...) are computed, and so are
     normals: fixedNormal is accepted and stays False. A plane whose normal points inwards is turned; one that makes no
     face is left out. ValueError for planes that enclose no volume, and for linings and bolts.
     After O.load a block is a ConicPotentialParticle, which knows no position and orientation.
@@ -49,9 +54,11 @@ class PotentialBlock(ConicPotentialParticle):
         position, orientation = np.zeros(3), (1.0, 0.0, 0.0, 0.0)
         if any(len(one) for one in given):
             if len({len(one) for one in given}) > 1:
-                raise ValueError(f"a, b, c, d have {', '.join(str(len(one)) for one in given)} entries: all must be of one length")
-            planes, r, R, position, orientation = _settled(rows(np.column_stack(given), 4, "planes", "the four numbers a, b, c, d"),
-                                                           positive(attributes.pop("r", 0.0), "r"), attributes.pop("R", 0.0))
+                raise ValueError(
+                    f"a, b, c, d have {', '.join(str(len(one)) for one in given)} entries: all must be of one length")
+            planes, r, R, position, orientation = _settled(
+                rows(np.column_stack(given), 4, "planes", "the four numbers a, b, c, d"),
+                positive(attributes.pop("r", 0.0), "r"), attributes.pop("R", 0.0))
             attributes.update(planes=planes, r=r, k=0.0, R=R)
         super().__init__(**attributes)
         if self.planes:

@@ -6,8 +6,9 @@
     mass = rock.slice(domain, [rock.JointSet(35, 90, 1.5), rock.JointSet(80, 265, 2.0, fisher=150)])
     ids = rock.bodies(mass, fixed=mass.on_domain(rock.Domain.SIDES))
 
-Axes: x east, y north, z up. Dips and dip directions are in degrees, a dip direction is clockwise from north; lengths are in the script's unit.
-What is wrong with an argument is a ValueError of one sentence, and nothing is made. docs/rock.md leads from a scanline to a result.
+Axes: x east, y north, z up. Dips and dip directions are in degrees, a dip direction is clockwise from north; lengths
+are in the script's unit. What is wrong with an argument is a ValueError of one sentence, and nothing is made.
+docs/rock.md leads from a scanline to a result.
 """
 from .block_theory import COLOURS, KeyBlock, key_blocks, summary
 from .domain import Domain
@@ -18,5 +19,8 @@ from .mass import Block, RockMass, slice
 from .scene import bodies, excavate, joint_engine
 from .surfaces import JointRecorder, joint_table
 
-__all__ = ["COLOURS", "Block", "Domain", "Joint", "JointRecorder", "JointSet", "KeyBlock", "RockMass", "apply_loads", "bodies", "excavate", "face_pressure", "joint",
-           "joint_engine", "joint_table", "key_blocks", "polygon", "read_blockgen", "read_dfn", "rectangle", "slice", "summary", "water_pressure"]
+__all__ = [
+    "COLOURS", "Block", "Domain", "Joint", "JointRecorder", "JointSet", "KeyBlock", "RockMass", "apply_loads", "bodies",
+    "excavate", "face_pressure", "joint", "joint_engine", "joint_table", "key_blocks", "polygon", "read_blockgen",
+    "read_dfn", "rectangle", "slice", "summary", "water_pressure"
+]

@@ -39,7 +39,8 @@ class Domain:
         lower, upper = vector(lower, "lower"), vector(upper, "upper")
         if not np.all(lower < upper):
             raise ValueError(f"lower={tuple(lower)} must lie below upper={tuple(upper)} along each axis")
-        return cls([row for axis in range(3) for row in ((*np.eye(3)[axis], upper[axis]), (*-np.eye(3)[axis], -lower[axis]))])
+        return cls(
+            [row for axis in range(3) for row in ((*np.eye(3)[axis], upper[axis]), (*-np.eye(3)[axis], -lower[axis]))])
 
     @classmethod
     def cylinder(cls, start, end, radius, sides=12):
@@ -58,21 +59,29 @@ class Domain:
         return cls([(*n, n @ start + radius) for n in normals] + [(*along, along @ end), (*-along, -(along @ start))])
 
     def below(self, point, dip, dip_direction):
-        """What of it lies below a plane through `point` (see joint()): a slope face, the ground. The plane is the last of `planes`."""
+        """What of it lies below a plane through `point` (see joint()): a slope face, the ground. The plane is the last
+        of `planes`.
+        """
         face = joint(point, dip, dip_direction)
         return Domain(np.vstack([self.planes, [*face.normal, np.dot(face.normal, face.point)]]), self.left_out)
 
     def without(self, *regions):
         """The same without convex regions (Domains): a tunnel that is there, the rock that a bench or a valley lacks.
 
-        Blocks are then cut by the planes of a region, too, as far as they meet it. The pieces of a block stay one piece of rock: bodies() glues them.
+        Blocks are then cut by the planes of a region, too, as far as they meet it. The pieces of a block stay one piece
+        of rock: bodies() glues them.
         """
         return Domain(self.planes, (*self.left_out, *convex(regions)))
 
     def ball(self):
-        """Centre (3,) and radius of a ball that holds it, without regards to what is left out; ValueError if it is empty or open."""
+        """Centre (3,) and radius of a ball that holds it, without regards to what is left out; ValueError if it is
+        empty or open.
+        """
         from .. import _glue
-        limits = {"least_volume": 0.0, "least_thickness": 0.0, "least_width": 0.0, "largest_aspect": 0.0, "most_blocks": 1, "threads": 1}
+        limits = {
+            "least_volume": 0.0, "least_thickness": 0.0, "least_width": 0.0, "largest_aspect": 0.0, "most_blocks": 1,
+            "threads": 1
+        }
         read = _glue.slice_rock(self.planes.tobytes(), b"", b"", [], b"", [], limits, None)
         corners = np.frombuffer(read["corners"]).reshape(-1, 3)
         centre = 0.5 * (corners.min(0) + corners.max(0))
@@ -84,5 +93,6 @@ def convex(regions):
     found = [regions] if isinstance(regions, Domain) else list(regions)
     for region in found:
         if not isinstance(region, Domain) or region.left_out:
-            raise ValueError(f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
+            raise ValueError(
+                f"a region is {type(region).__name__}: give convex Domains that leave nothing out themselves")
     return found

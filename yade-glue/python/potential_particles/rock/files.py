@@ -10,10 +10,12 @@ from .joints import Joint, JointSet, joint, polygon
 
 
 def read_dfn(file):
-    """Joints as discs from a table of the columns x, y, z of the centre, dip, dip direction and radius; a list of Joint.
+    """Joints as discs from a table of the columns x, y, z of the centre, dip, dip direction and radius; a list of
+    Joint.
 
-    Separated by commas or semicolons, in degrees and the script's unit; a first line without any number is passed over as names, and so are empty lines and those that begin with #. A
-    radius of inf is a joint without end. ValueError with file, line and value for what is no such table.
+    Separated by commas or semicolons, in degrees and the script's unit; a first line without any number is passed over
+    as names, and so are empty lines and those that begin with #. A radius of inf is a joint without end. ValueError
+    with file, line and value for what is no such table.
     """
     found = []
     for number, values in _rows(file, 6, "x, y, z, dip, dip direction, radius"):
@@ -24,16 +26,21 @@ def read_dfn(file):
 def read_blockgen(file, kind, size=None):
     """The joints of a table of YADE's BlockGen, as it reads them; a list of Joint.
 
-    kind: "probabilistic" (filenameProbabilistic) has dip; dip direction; x; y; z; half lengths along strike and dip in each row; "persistent"
-    (filenamePersistentPlanes) dip; dip direction; spacing, and joints through the origin and on both sides of it as far as `size`/2, the boundarySize of
-    BlockGen; YADE takes the difference of its two extents there, so that a symmetric domain gets one plane of each row. "boundary" (filenameBoundaries) dip; dip direction; x; y; z. Further columns are passed over. In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos d), d the dip and a the dip direction: x is north and y east
-    where z points downwards. A joint that ends is a rectangle.
+    kind: "probabilistic" (filenameProbabilistic) has dip; dip direction; x; y; z; half lengths along strike and dip in
+    each row; "persistent" (filenamePersistentPlanes) dip; dip direction; spacing, and joints through the origin and on
+    both sides of it as far as `size`/2, the boundarySize of BlockGen; YADE takes the difference of its two extents
+    there, so that a symmetric domain gets one plane of each row. "boundary" (filenameBoundaries) dip; dip direction; x;
+    y; z. Further columns are passed over. In BlockGen's axes the normal of a plane is (-sin d cos a, -sin d sin a, cos
+    d), d the dip and a the dip direction: x is north and y east where z points downwards. A joint that ends is a
+    rectangle.
     """
     return [one for one, _ in rows_of_blockgen(file, kind, size)]
 
 
 def rows_of_blockgen(file, kind, size=None):
-    """(Joint, dict of frictionAngle, residualFrictionAngle, cohesion and tensileStrength, as of ConicJointMat, where the row has them) of each joint of read_blockgen()."""
+    """(Joint, dict of frictionAngle, residualFrictionAngle, cohesion and tensileStrength, as of ConicJointMat, where
+    the row has them) of each joint of read_blockgen().
+    """
     kinds = {"probabilistic": 7, "persistent": 3, "boundary": 5}
     if kind not in kinds:
         raise ValueError(f"kind={kind!r} must be one of {', '.join(kinds)}")
@@ -51,12 +58,17 @@ def rows_of_blockgen(file, kind, size=None):
             _told(file, number, lambda: JointSet(min(dip, 180 - dip), direction, values[2]))
             half = round(size / values[2]) // 2
             if len(found) + 2 * half + 1 > MANY:
-                raise ValueError(f"{file}, line {number}: spacing={values[2]:g} over size={size:g} makes {2 * half + 1:.3g} joints, and no more than {MANY} are read")
-            found += [(Joint(tuple(step * values[2] * one for one in normal), normal), strength) for step in range(-half, half + 1)]
+                raise ValueError(
+                    f"{file}, line {number}: spacing={values[2]:g} over size={size:g} makes {2 * half + 1:.3g} joints, and no more than {MANY} are read"
+                )
+            found += [(Joint(tuple(step * values[2] * one for one in normal), normal), strength)
+                      for step in range(-half, half + 1)]
         elif kind == "probabilistic":
             if not (values[5] > 0.0 and values[6] > 0.0):
                 raise ValueError(f"{file}, line {number}: half lengths {values[5]:g} and {values[6]:g} must be above 0")
-            found.append((_told(file, number, lambda: _rectangle(values[2:5], normal, math.radians(direction), *values[5:7])), strength))
+            found.append(
+                (_told(file, number,
+                       lambda: _rectangle(values[2:5], normal, math.radians(direction), *values[5:7])), strength))
         else:
             found.append((Joint(tuple(values[2:5]), normal), strength))
     return found
@@ -73,7 +85,10 @@ def _strength(values):
     """phi_b; phi_r; JRC; JCS; asperity; sigmaC; cohesion; tension."""
     if len(values) < 8:
         return {}
-    return {"frictionAngle": math.radians(values[0]), "residualFrictionAngle": math.radians(values[1]), "cohesion": values[6], "tensileStrength": values[7]}
+    return {
+        "frictionAngle": math.radians(values[0]), "residualFrictionAngle": math.radians(values[1]),
+        "cohesion": values[6], "tensileStrength": values[7]
+    }
 
 
 def _blockgen_normal(dip, direction):
@@ -100,7 +115,8 @@ def _rows(file, width, meaning, exactly=True):
                 continue
             for column, word in enumerate(words[:width], 1):
                 # A disc without end has a radius of inf, and nothing else is infinite.
-                if not _is_number(word) or not math.isfinite(float(word)) and not (exactly and column == width and float(word) == math.inf):
+                if not _is_number(word) or not math.isfinite(float(word)) and not (exactly and column == width
+                                                                                   and float(word) == math.inf):
                     raise ValueError(f"{file}, line {number}, column {column}: {word!r} is no finite number")
             if len(words) < width or exactly and len(words) != width:
                 raise ValueError(f"{file}, line {number}: {len(words)} numbers, and {width} are needed: {meaning}")

@@ -10,7 +10,9 @@ from ..arguments import LARGE, MANY, number, positive, rows, vector, whole, with
 
 
 class Joint(typing.NamedTuple):
-    """A plane in the rock, or a disc of it about `point`: unit normal, and radius (length, math.inf for a joint without end); of a polygon `outline`, its corners (n, 3)."""
+    """A plane in the rock, or a disc of it about `point`: unit normal, and radius (length, math.inf for a joint without
+    end); of a polygon `outline`, its corners (n, 3).
+    """
 
     point: tuple
     normal: tuple
@@ -19,9 +21,11 @@ class Joint(typing.NamedTuple):
 
 
 def joint(point, dip, dip_direction, radius=math.inf):
-    """The Joint through a point that descends most, by `dip` degrees, towards the azimuth `dip_direction`, degrees clockwise from north.
+    """The Joint through a point that descends most, by `dip` degrees, towards the azimuth `dip_direction`, degrees
+    clockwise from north.
 
-    Its normal is (sin d sin a, sin d cos a, cos d), d the dip and a the dip direction. radius: of a disc about the point, length.
+    Its normal is (sin d sin a, sin d cos a, cos d), d the dip and a the dip direction. radius: of a disc about the
+    point, length.
     """
     dip, direction = math.radians(within(dip, 0.0, 90.0, "dip")), math.radians(number(dip_direction, "dip_direction"))
     normal = (math.sin(dip) * math.sin(direction), math.sin(dip) * math.cos(direction), math.cos(dip))
@@ -29,7 +33,9 @@ def joint(point, dip, dip_direction, radius=math.inf):
 
 
 def polygon(corners):
-    """The Joint that is a convex polygon, by its corners (n, 3) in their order; ValueError where they lie off one plane or on one line, or are no convex polygon's."""
+    """The Joint that is a convex polygon, by its corners (n, 3) in their order; ValueError where they lie off one plane
+    or on one line, or are no convex polygon's.
+    """
     from .. import _glue
     outline = rows(corners, 3, "corners", "the three numbers x, y, z")
     made = np.frombuffer(_glue.joint_from_corners(outline.tobytes())).tolist()
@@ -37,10 +43,15 @@ def polygon(corners):
 
 
 def rectangle(point, dip, dip_direction, length, width):
-    """The Joint that is a rectangle about `point`: `length` along its strike, `width` along its dip; angles as of joint()."""
-    middle, dip, direction = vector(point, "point"), math.radians(within(dip, 0.0, 90.0, "dip")), math.radians(number(dip_direction, "dip_direction"))
+    """The Joint that is a rectangle about `point`: `length` along its strike, `width` along its dip; angles as of
+    joint().
+    """
+    middle, dip, direction = vector(point, "point"), math.radians(within(dip, 0.0, 90.0, "dip")), math.radians(
+        number(dip_direction, "dip_direction"))
     along = 0.5 * positive(length, "length") * np.array([math.cos(direction), -math.sin(direction), 0.0])
-    down = 0.5 * positive(width, "width") * np.array([math.cos(dip) * math.sin(direction), math.cos(dip) * math.cos(direction), -math.sin(dip)])
+    down = 0.5 * positive(width, "width") * np.array(
+        [math.cos(dip) * math.sin(direction),
+         math.cos(dip) * math.cos(direction), -math.sin(dip)])
     return polygon([middle + along + down, middle - along + down, middle - along - down, middle + along - down])
 
 
@@ -48,10 +59,12 @@ def rectangle(point, dip, dip_direction, length, width):
 class JointSet:
     """Joints of about one orientation at about one spacing.
 
-    dip, dip_direction: of their mean, degrees. spacing: mean distance along the mean normal, length. exponential: distances are drawn from an
-    exponential distribution instead of being all the same. fisher: Fisher's concentration of the normals, math.inf for none; half of them lie
-    within about arccos(1 - 0.69/fisher) of the mean, 6.7 degrees for 100. radius: of joints that end, discs whose centres lie anywhere, length; a scanline along the mean
-    normal crosses them at the spacing. (A trace length l on a face is that of discs of radius 2 l/pi, in the mean.) seed: the same one gives the same joints.
+    dip, dip_direction: of their mean, degrees. spacing: mean distance along the mean normal, length. exponential:
+    distances are drawn from an exponential distribution instead of being all the same. fisher: Fisher's concentration
+    of the normals, math.inf for none; half of them lie within about arccos(1 - 0.69/fisher) of the mean, 6.7 degrees
+    for 100. radius: of joints that end, discs whose centres lie anywhere, length; a scanline along the mean normal
+    crosses them at the spacing. (A trace length l on a face is that of discs of radius 2 l/pi, in the mean.) seed: the
+    same one gives the same joints.
     """
 
     dip: float
@@ -73,14 +86,21 @@ class JointSet:
         _radius(self.radius)
 
     def joints(self, centre, reach):
-        """A list of Joint: those that cross the line through `centre` along the mean normal within `reach`; discs that reach into that ball."""
+        """A list of Joint: those that cross the line through `centre` along the mean normal within `reach`; discs that
+        reach into that ball.
+        """
         from .. import _glue
         fields = {name: getattr(self, name) for name in ("dip", "dip_direction", "spacing", "fisher", "radius", "seed")}
-        made = _glue.joints_of_set({**{name: float(value) for name, value in fields.items()}, "seed": int(self.seed), "exponential": bool(self.exponential)},
-                                   tuple(map(float, vector(centre, "centre"))), positive(reach, "reach"))
+        made = _glue.joints_of_set(
+            {
+                **{name: float(value)
+                   for name, value in fields.items()}, "seed": int(self.seed), "exponential": bool(self.exponential)
+            }, tuple(map(float, vector(centre, "centre"))), positive(reach, "reach"))
         made = np.frombuffer(made).reshape(-1, 7)
         if len(made) > MANY:
-            raise ValueError(f"spacing={self.spacing:g} makes {len(made)} joints, and no more than {MANY} are made: take a larger one, or a smaller domain")
+            raise ValueError(
+                f"spacing={self.spacing:g} makes {len(made)} joints, and no more than {MANY} are made: take a larger one, or a smaller domain"
+            )
         return [Joint(tuple(row[:3]), tuple(row[3:6]), float(row[6])) for row in made.tolist()]
 
 

@@ -43,9 +43,11 @@ def water_pressure(mass, faces, level, unit_weight=9810.0):
 
 
 def apply_loads(ids, loads):
-    """Gives bodies lasting forces and torques, in the place of those that they have: ids (blocks,) of bodies(), loads (blocks, 6). On a clump, those of its members.
+    """Gives bodies lasting forces and torques, in the place of those that they have: ids (blocks,) of bodies(), loads
+    (blocks, 6). On a clump, those of its members.
 
-    YADE does not save lasting forces: call it again after O.load(), and O.forces.reset(resetAll=True) where other bodies take the ids.
+    YADE does not save lasting forces: call it again after O.load(), and O.forces.reset(resetAll=True) where other
+        bodies take the ids.
     """
     import yade
     forces, loads = {}, loads_of(loads, len(ids))

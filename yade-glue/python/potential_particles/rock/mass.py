@@ -14,10 +14,10 @@ from .domain import Domain, convex
 from .joints import Joint, JointSet
 
 # The structs of potential_particles.h.
-BLOCK = np.dtype([("volume", "f8"), ("centroid", "f8", 3), ("inertia", "f8", 6), ("first_face", "u8"), ("face_count", "u8"), ("parent", "u8"),
-                  ("region", "i8")])
-FACE = np.dtype([("of", "u4"), ("region", "u4"), ("index", "u8"), ("plane", "f8", 4), ("area", "f8"), ("jointed_area", "f8"), ("first_corner", "u8"), ("corner_count", "u8"),
-                 ("block", "u8")])
+BLOCK = np.dtype([("volume", "f8"), ("centroid", "f8", 3), ("inertia", "f8", 6), ("first_face", "u8"),
+                  ("face_count", "u8"), ("parent", "u8"), ("region", "i8")])
+FACE = np.dtype([("of", "u4"), ("region", "u4"), ("index", "u8"), ("plane", "f8", 4), ("area", "f8"),
+                 ("jointed_area", "f8"), ("first_corner", "u8"), ("corner_count", "u8"), ("block", "u8")])
 PARTNERS = np.dtype([("faces", "u8", 2), ("area", "f8")])
 OF_DOMAIN, OF_JOINT, OF_REGION = range(3)
 
@@ -27,8 +27,10 @@ LEAST_SHARE = 1e-8
 
 @dataclasses.dataclass(frozen=True)
 class Block:
-    """One block of a RockMass: volume, centroid (3,), inertia (3, 3) about it for density 1, planes (n, 4) with unit outward normals and offsets
-    from the origin, corners (m, 3), all in the axes of the domain; the faces are those of the mass with these numbers."""
+    """One block of a RockMass: volume, centroid (3,), inertia (3, 3) about it for density 1, planes (n, 4) with unit
+    outward normals and offsets from the origin, corners (m, 3), all in the axes of the domain; the faces are those of
+    the mass with these numbers.
+    """
 
     number: int
     volume: float
@@ -44,11 +46,13 @@ class RockMass:
     """Blocks and their faces as numpy arrays, one row each; mass[i] is a Block, len(mass) their number.
 
     blocks: volume, centroid, inertia (xx, yy, zz, xy, xz, yz for density 1), parent, region (-1: none) ...
-    faces: block, area, jointed_area (within the true extent of the joint, a disc or polygon; what else of the face was rock), plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region), index (of that plane or joint), region (of slice(); 2**32 - 1
-    for what the domain leaves out) ...
+    faces: block, area, jointed_area (within the true extent of the joint, a disc or polygon; what else of the face was
+    rock), plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region),
+    index (of that plane or joint), region (of slice(); 2**32 - 1 for what the domain leaves out) ...
     partners: pairs of faces that lie on each other, with the area that they share.
     joints: the Joints that have cut; set_of_joint: for each, the number of its entry in the `joints` of slice().
-    missing: numbers of joints that met no block. too_small, unclosed: cuts that were left out because of the limits, or of rounding.
+    missing: numbers of joints that met no block. too_small, unclosed: cuts that were left out because of the limits, or
+        of rounding.
     complete: False if Ctrl-C ended the cuts before the last joint. planes: number of planes of the domain.
     """
 
@@ -76,8 +80,9 @@ class RockMass:
         faces = np.arange(row["first_face"], row["first_face"] + row["face_count"]).astype(int)
         xx, yy, zz, xy, xz, yz = row["inertia"]
         corners = np.concatenate([self.outline(face) for face in faces])
-        return Block(number, float(row["volume"]), row["centroid"], np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]),
-                     self.faces["plane"][faces], np.unique(corners, axis=0), faces)
+        return Block(number, float(row["volume"]), row["centroid"],
+                     np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), self.faces["plane"][faces],
+                     np.unique(corners, axis=0), faces)
 
     @property
     def volume(self):
@@ -92,15 +97,20 @@ class RockMass:
     @functools.cached_property
     def set_of_face(self):
         """For each face the number of its joint's entry in the `joints` of slice(), -1 for what is no joint."""
-        return np.where(self.faces["of"] == OF_JOINT, np.append(self.set_of_joint, -1)[np.minimum(self.faces["index"].astype(int), len(self.set_of_joint))], -1)
+        return np.where(
+            self.faces["of"] == OF_JOINT,
+            np.append(self.set_of_joint, -1)[np.minimum(self.faces["index"].astype(int), len(self.set_of_joint))], -1)
 
     def on_domain(self, planes):
-        """Which blocks have a face on one of these planes of the domain (numbers; a single one, too), (blocks,) of bool."""
+        """Which blocks have a face on one of these planes of the domain (numbers; a single one, too), (blocks,) of
+        bool.
+        """
         return self._blocks_of(self.faces_on(planes))
 
     def faces_on(self, planes):
         """Which faces lie on one of these planes of the domain, (faces,) of bool."""
-        return (self.faces["of"] == OF_DOMAIN) & np.isin(self.faces["index"].astype(int), planes_of(self, planes, "planes"))
+        return (self.faces["of"] == OF_DOMAIN) & np.isin(self.faces["index"].astype(int),
+                                                         planes_of(self, planes, "planes"))
 
     def faces_of(self, sets):
         """Which faces are on joints of these entries of the `joints` of slice(), (faces,) of bool."""
@@ -112,7 +122,9 @@ class RockMass:
 
     @functools.cached_property
     def pieces(self):
-        """For each block the number of the piece of rock to which it belongs: blocks that regions alone have parted, and that still touch, are one."""
+        """For each block the number of the piece of rock to which it belongs: blocks that regions alone have parted,
+        and that still touch, are one.
+        """
         from scipy.sparse import coo_matrix
         from scipy.sparse.csgraph import connected_components
         first, second = self._partner_blocks
@@ -145,16 +157,21 @@ class RockMass:
         return dataclasses.replace(self, blocks=blocks, faces=left, partners=pairs)
 
 
-def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, least_width=0.0, largest_aspect=math.inf, most_blocks=1_000_000, threads=None, progress=True):
-    """Cuts a Domain by joints, in their order, into a RockMass (Boon, Houlsby & Utili 2015, Computers and Geotechnics 65).
+def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, least_width=0.0, largest_aspect=math.inf,
+          most_blocks=1_000_000, threads=None, progress=True):
+    """Cuts a Domain by joints, in their order, into a RockMass (Boon, Houlsby & Utili 2015, Computers and Geotechnics
+    65).
 
-    joints: JointSets, Joints and lists of Joints. A joint cuts each block that it meets in two, a disc or polygon all of a block that it reaches.
-    regions: convex Domains, as the steps of an excavation, that cut the blocks that they meet, after all joints; `inside` tells which blocks lie in one.
-    What `domain` leaves out is taken out.
-    least_volume: a joint leaves a block whole if a part would be smaller than this (length^3), or thinner than least_thickness in the mean, 2V/A of
-    volume and surface (length): of a wide slab its thickness, of a cube a third of its edge; or the largest ball in it has a diameter below least_width (length), or
-    its extent along x, y or z is more than largest_aspect times that diameter, as the paper has it. Such cuts are counted.
-    most_blocks: more are a ValueError. threads: that cut, None for one on each processor; the blocks are the same for any number. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
+    joints: JointSets, Joints and lists of Joints. A joint cuts each block that it meets in two, a disc or polygon all
+        of a block that it reaches.
+    regions: convex Domains, as the steps of an excavation, that cut the blocks that they meet, after all joints;
+    `inside` tells which blocks lie in one. What `domain` leaves out is taken out.
+    least_volume: a joint leaves a block whole if a part would be smaller than this (length^3), or thinner than
+    least_thickness in the mean, 2V/A of volume and surface (length): of a wide slab its thickness, of a cube a third of
+    its edge; or the largest ball in it has a diameter below least_width (length), or its extent along x, y or z is more
+    than largest_aspect times that diameter, as the paper has it. Such cuts are counted.
+    most_blocks: more are a ValueError. threads: that cut, None for one on each processor; the blocks are the same for
+        any number. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
     """
     from .. import _glue
     if not isinstance(domain, Domain):
@@ -162,10 +179,14 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     regions = convex(regions)
     for region in regions:
         region.ball()  # raises where it is empty or open
-    limits = {"least_volume": _not_negative(least_volume, "least_volume"), "least_thickness": _not_negative(least_thickness, "least_thickness"),
-              "least_width": _not_negative(least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(largest_aspect, 1.0, math.inf, "largest_aspect"),
-              "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
-              "most_blocks": whole(most_blocks, 1, LARGE, "most_blocks")}
+    limits = {
+        "least_volume": _not_negative(least_volume, "least_volume"),
+        "least_thickness": _not_negative(least_thickness, "least_thickness"), "least_width": _not_negative(
+            least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(
+                largest_aspect, 1.0, math.inf, "largest_aspect"),
+        "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
+        "most_blocks": whole(most_blocks, 1, LARGE, "most_blocks")
+    }
     centre, reach = domain.ball()
     cutting, numbers = [], []
     for entry, given in enumerate([joints] if isinstance(joints, (JointSet, Joint)) else _listed(joints, "joints")):
@@ -176,18 +197,22 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     outlines = np.array([corner for one in cutting for corner in one.outline], float)
     cut_out = [*domain.left_out, *regions]
     with _Report(len(cutting), progress) as report:
-        read = _glue.slice_rock(domain.planes.tobytes(), rows.tobytes(), outlines.tobytes(), [len(one.outline) for one in cutting],
-                                b"".join(one.planes.tobytes() for one in cut_out),
+        read = _glue.slice_rock(domain.planes.tobytes(), rows.tobytes(), outlines.tobytes(),
+                                [len(one.outline) for one in cutting], b"".join(one.planes.tobytes()
+                                                                                for one in cut_out),
                                 [len(one.planes) for one in cut_out], limits, report.told)
     done = int(read["joints"])
-    mass = RockMass(blocks=np.frombuffer(read["blocks"], BLOCK), faces=np.frombuffer(read["faces"], FACE), corners=np.frombuffer(read["corners"]).reshape(-1, 3),
-                    partners=np.frombuffer(read["partners"], PARTNERS), joints=cutting[:done], set_of_joint=np.array(numbers[:done], int),
-                    missing=np.frombuffer(read["missing"], "u8").astype(int), too_small=int(read["too_small"]), unclosed=int(read["unclosed"]),
-                    complete=done == len(cutting), planes=len(domain.planes))
+    mass = RockMass(blocks=np.frombuffer(read["blocks"], BLOCK), faces=np.frombuffer(read["faces"], FACE),
+                    corners=np.frombuffer(read["corners"]).reshape(-1, 3), partners=np.frombuffer(
+                        read["partners"], PARTNERS), joints=cutting[:done], set_of_joint=np.array(numbers[:done], int),
+                    missing=np.frombuffer(read["missing"], "u8").astype(int), too_small=int(read["too_small"]),
+                    unclosed=int(read["unclosed"]), complete=done == len(cutting), planes=len(domain.planes))
     if report.noted and mass.complete:
-        print("Ctrl-C came in the last round of cuts, which went on to its end: the blocks are complete", file=sys.stderr)
+        print("Ctrl-C came in the last round of cuts, which went on to its end: the blocks are complete",
+              file=sys.stderr)
     if not mass.complete:
-        print(f"slicing was stopped by Ctrl-C after {done:,} of {len(cutting):,} joints: {len(mass):,} blocks", file=sys.stderr)
+        print(f"slicing was stopped by Ctrl-C after {done:,} of {len(cutting):,} joints: {len(mass):,} blocks",
+              file=sys.stderr)
     count = len(domain.left_out)
     if count:
         blocks = mass.blocks.copy()
@@ -206,7 +231,8 @@ def _joints_of(given, entry, centre, reach) -> typing.List[Joint]:
     made = [given] if isinstance(given, Joint) else _listed(given, f"joints[{entry}]")
     for one in made:
         if not isinstance(one, Joint):
-            raise ValueError(f"joints[{entry}] holds {type(one).__name__}: give a JointSet, a Joint or a list of Joints")
+            raise ValueError(
+                f"joints[{entry}] holds {type(one).__name__}: give a JointSet, a Joint or a list of Joints")
     return made
 
 
@@ -258,5 +284,3 @@ class _Report:
         if self.bar is not None:
             self.bar.close()
         self.interrupts.__exit__(*error)
-
-

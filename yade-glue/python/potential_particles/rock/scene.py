@@ -18,7 +18,8 @@ _RAN = ".ran"
 #: Mask of fixed blocks; with avoidSelfInteractionMask=2 a collider passes over contacts between them.
 FIXED_MASK = 3
 
-# Of the size of a block, and of the distance from the origin: faces that touch to rounding alone have no patch, and to look for one takes long.
+# Of the size of a block, and of the distance from the origin: faces that touch to rounding alone have no patch, and to
+# look for one takes long.
 TOUCH, ROUNDING = 1e-10, 1e-13
 
 
@@ -34,14 +35,19 @@ class Ids(np.ndarray):
 
 
 def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=None, *, r=None, **more):
-    """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies, which gives a single one as an int.
+    """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies, which gives a single
+    one as an int.
 
-    material: a Material, or the number or label of one in O.materials (None: the last). rounding: of edges and corners, as a share of twice the distance of
-    the nearest face from the centroid, or in its place r, a length for all blocks; faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
-    neighbours touch from the start: by default 1e-10 of the size of a block, and above rounding. Mass and inertia are those of the sharp blocks, so that masses sum to that of the domain.
-    fixed: blocks that no force moves, as numbers or (blocks,) of bool, as mass.on_domain gives them. Pieces of a block that regions parted are a clump, with
-    the mass of their sum, and all fixed where one is. color: one for all, or a function of the number of a block; by default a shade for each.
-    The mask of fixed blocks is 3: InsertionSortCollider(..., avoidSelfInteractionMask=2) leaves out contacts between them.
+    material: a Material, or the number or label of one in O.materials (None: the last). rounding: of edges and corners,
+    as a share of twice the distance of the nearest face from the centroid, or in its place r, a length for all blocks;
+    faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
+    neighbours touch from the start: by default 1e-10 of the size of a block, and above rounding. Mass and inertia are
+        those of the sharp blocks, so that masses sum to that of the domain.
+    fixed: blocks that no force moves, as numbers or (blocks,) of bool, as mass.on_domain gives them. Pieces of a block
+    that regions parted are a clump, with the mass of their sum, and all fixed where one is. color: one for all, or a
+    function of the number of a block; by default a shade for each.
+    The mask of fixed blocks is 3: InsertionSortCollider(..., avoidSelfInteractionMask=2) leaves out contacts between
+        them.
     more: further arguments of potential_particles.body.
     """
     import yade
@@ -49,7 +55,9 @@ def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=Non
     from ..clumps import clump
     wanted = Rounding(rounding, 0.0, r)
     size = np.median(np.cbrt(mass.blocks["volume"]))
-    overlap = max(TOUCH * size, ROUNDING * np.abs(mass.corners).max()) if overlap is None else within(overlap, 0.0, math.inf, "overlap")
+    overlap = max(TOUCH * size,
+                  ROUNDING
+                  * np.abs(mass.corners).max()) if overlap is None else within(overlap, 0.0, math.inf, "overlap")
     still = _marked(fixed, len(mass), "fixed")
     held = np.zeros(mass.pieces.max(initial=-1) + 1, bool)
     held[mass.pieces[still]] = True
@@ -59,7 +67,9 @@ def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=Non
         shape, orientation = _shape(block, wanted, overlap)
         shade = _shade(one) if color is None else color(one) if callable(color) else color
         is_held = bool(held[mass.pieces[one]])
-        made.append(body(shape, material, block.centroid, orientation, fixed=is_held, color=shade, **{**({"mask": FIXED_MASK} if is_held else {}), **more}))
+        made.append(
+            body(shape, material, block.centroid, orientation, fixed=is_held, color=shade,
+                 **{**({"mask": FIXED_MASK} if is_held else {}), **more}))
     ids = np.array(yade.O.bodies.append(made), int).view(Ids)
     counts = np.bincount(mass.pieces, minlength=len(held))
     for piece in np.flatnonzero((counts > 1) & ~held):
@@ -68,13 +78,16 @@ def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=Non
 
 
 def joint_engine(mass, ids, materials, period=1):
-    """An engine that gives contacts the friction, strength and stiffness of the joint on which they lie, to stand behind the contact loop.
+    """An engine that gives contacts the friction, strength and stiffness of the joint on which they lie, to stand
+    behind the contact loop.
 
-    mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction angles, cohesion, tensile
-    strength, softening and, where they are above 0, both stiffnesses count, but with KnKsPhys neither softening nor stiffnesses; of another FrictMat the friction angle. Contacts between blocks that were
-    neighbours on a joint of these sets take them in the first step after they are made, looked for every `period` steps; all others keep what their bodies give them.
-    What a script makes of a joint later stays, also in a run that loads the scene.
-    Saved with the scene, in O.tags; a script that loads it imports potential_particles. Each rock mass has an engine of its own.
+    mass, ids: as of bodies(). materials: for entries of the `joints` of slice() a Material: of a ConicJointMat friction
+    angles, cohesion, tensile strength, softening and, where they are above 0, both stiffnesses count, but with KnKsPhys
+    neither softening nor stiffnesses; of another FrictMat the friction angle. Contacts between blocks that were
+    neighbours on a joint of these sets take them in the first step after they are made, looked for every `period`
+    steps; all others keep what their bodies give them. What a script makes of a joint later stays, also in a run that
+    loads the scene. Saved with the scene, in O.tags; a script that loads it imports potential_particles. Each rock mass
+    has an engine of its own.
     """
     import yade
     period = whole(period, 1, LARGE, "period")
@@ -86,7 +99,8 @@ def joint_engine(mass, ids, materials, period=1):
             largest[pair] = float(area), int(sets[first])
     for entry, material in materials.items():
         if not isinstance(material, yade.FrictMat):
-            raise ValueError(f"materials[{entry!r}] is {type(material).__name__}: give a ConicJointMat or another FrictMat")
+            raise ValueError(
+                f"materials[{entry!r}] is {type(material).__name__}: give a ConicJointMat or another FrictMat")
         radians(material.frictionAngle, f"frictionAngle of materials[{entry!r}]")
     written = {"pairs": [[*pair, entry] for pair, (_, entry) in largest.items()],
                "values": {str(int(entry)): _values(material) for entry, material in materials.items()}}
@@ -95,10 +109,12 @@ def joint_engine(mass, ids, materials, period=1):
     yade.O.tags[tag] = json.dumps(written)
     # Joints that there are take the new values.
     yade.O.tags[tag + _RAN] = "-1"
-    return yade.PyRunner(command=f"import potential_particles.rock.scene; {FOLLOWS}({tag!r})", iterPeriod=period, initRun=True)
+    return yade.PyRunner(command=f"import potential_particles.rock.scene; {FOLLOWS}({tag!r})", iterPeriod=period,
+                         initRun=True)
 
 
-_VALUES = ("frictionAngle", "residualFrictionAngle", "cohesion", "residualCohesion", "tensileStrength", "softening", "normalStiffness", "shearStiffness")
+_VALUES = ("frictionAngle", "residualFrictionAngle", "cohesion", "residualCohesion", "tensileStrength", "softening",
+           "normalStiffness", "shearStiffness")
 
 
 def _values(material):
@@ -113,7 +129,8 @@ def follow(tag=TAG):
     import yade
     scene = yade.O
     pairs = table(tag, scene.tags[tag])
-    # The step in which it ran last is saved with the scene: joints that have their values keep what a script has made of them, in a loaded run, too.
+    # The step in which it ran last is saved with the scene: joints that have their values keep what a script has made
+    # of them, in a loaded run, too.
     ran = tag + _RAN
     since = int(scene.tags[ran]) if scene.tags.has_key(ran) else -1
     if since > scene.iter:  # O.resetTime()
@@ -137,11 +154,13 @@ def _give(physics, values):
     # Its law takes angles in degrees, and strength only of contacts that say that they have some.
     physics.phi_b, physics.phi_r = (math.degrees(values[name]) for name in ("frictionAngle", "residualFrictionAngle"))
     physics.cohesion, physics.tension = values.get("cohesion", 0.0), values.get("tensileStrength", 0.0)
-    physics.intactRock, physics.cohesionBroken, physics.tensionBroken = physics.cohesion > 0.0, physics.cohesion <= 0.0, physics.tension <= 0.0
+    physics.intactRock = physics.cohesion > 0.0
+    physics.cohesionBroken, physics.tensionBroken = physics.cohesion <= 0.0, physics.tension <= 0.0
 
 
 def excavate(ids, settle=0, slow=1e-3, check_every=100):
-    """Takes bodies out of the scene, clumps with all their members, and runs up to `settle` steps until none is faster than `slow` (length per time).
+    """Takes bodies out of the scene, clumps with all their members, and runs up to `settle` steps until none is faster
+    than `slow` (length per time).
 
     ids: of the bodies, as ids[mass.inside(0)]; one that is gone already is passed over, one that never was is a
     ValueError. Returns the steps that were run. A sequence is a loop over regions.
@@ -153,13 +172,18 @@ def excavate(ids, settle=0, slow=1e-3, check_every=100):
     wanted = sorted({_id(one) for one in np.atleast_1d(ids)})
     unknown = [one for one in wanted if not 0 <= one < len(scene.bodies)]
     if unknown:
-        raise ValueError(f"ids holds {', '.join(map(str, unknown[:5]))}{' ...' if len(unknown) > 5 else ''}: there is no such body among the {len(scene.bodies)} of O.bodies; "
-                         "give ids as bodies() returned them, as in excavate(ids[mass.inside(0)])")
+        raise ValueError(
+            f"ids holds {', '.join(map(str, unknown[:5]))}{' ...' if len(unknown) > 5 else ''}: there is no such body among the {len(scene.bodies)} of O.bodies; "
+            "give ids as bodies() returned them, as in excavate(ids[mass.inside(0)])")
     chosen = [body for body in (scene.bodies[one] for one in wanted) if body is not None]
     carriers = {body.clumpId if body.isClumpMember else body.id for body in chosen}
-    gone = carriers | {member for one in carriers if scene.bodies[one].isClump for member in scene.bodies[one].shape.members}
+    gone = carriers | {
+        member
+        for one in carriers if scene.bodies[one].isClump for member in scene.bodies[one].shape.members
+    }
     # YADE would leave their contacts until the next step.
-    for pair in [(contact.id1, contact.id2) for contact in scene.interactions if not gone.isdisjoint((contact.id1, contact.id2))]:
+    for pair in [(contact.id1, contact.id2) for contact in scene.interactions
+                 if not gone.isdisjoint((contact.id1, contact.id2))]:
         scene.interactions.erase(*pair)
     for one in carriers:
         scene.bodies.erase(one, True)
@@ -188,8 +212,9 @@ def _shape(block, wanted, overlap):
     r = wanted.lengths(2.0 * float(heights.min()))[0]
     planes = np.column_stack([block.planes[:, :3] @ axes, heights + overlap - r])
     reach = float(np.linalg.norm(block.corners - block.centroid, axis=1).max())
-    shape = Shape(planes=tuple(map(tuple, planes.tolist())), r=r, k=0.0, R=reach, volume=block.volume, inertia=tuple(map(float, moments)), error=1e-12,
-                  centroid=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=reach, name=f"block {block.number}")
+    shape = Shape(planes=tuple(map(tuple, planes.tolist())), r=r, k=0.0, R=reach, volume=block.volume,
+                  inertia=tuple(map(float, moments)), error=1e-12, centroid=(0.0, 0.0, 0.0),
+                  orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=reach, name=f"block {block.number}")
     return shape, orientation
 
 
@@ -210,13 +235,15 @@ def _marked(chosen, count, name):
 
 
 def loads_of(loads, count):
-    """Forces and torques as an array (count, 6), torques 0 where only forces are given; ValueError for what is neither."""
+    """Forces and torques as an array (count, 6), torques 0 where only forces are given; ValueError for what is neither.
+    """
     try:
         found = np.asarray(loads, float)
     except (TypeError, ValueError):
         found = np.zeros(0)
     if found.ndim != 2 or found.shape[0] != count or found.shape[1] not in (3, 6) or not np.isfinite(found).all():
-        raise ValueError(f"loads must be ({count}, 6) finite numbers, force and torque of each block, as of water_pressure()")
+        raise ValueError(
+            f"loads must be ({count}, 6) finite numbers, force and torque of each block, as of water_pressure()")
     return np.column_stack([found, np.zeros((count, 6 - found.shape[1]))])
 
 

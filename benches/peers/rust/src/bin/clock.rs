@@ -1,4 +1,5 @@
-//! Prints nanoseconds a cycle: each multiplication of integers waits for the one before, which takes three cycles on x86-64 since 2008.
+//! Prints nanoseconds a cycle: each multiplication of integers waits for the one before, which takes three cycles on
+//! x86-64 since 2008.
 
 use std::hint::black_box;
 use std::time::Instant;

@@ -1,6 +1,6 @@
-//! This library. Ways: midway, closest, carried (in a batch, as the YADE plugin asks), cone_program (clarabel on the paper's cone
-//! program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the end; with `midway+wait` each call
-//! waits for the answer of the one before, where else the processor works on several at a time.
+//! This library. Ways: midway, closest, carried (in a batch, as the YADE plugin asks), cone_program (clarabel on the
+//! paper's cone program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the end; with
+//! `midway+wait` each call waits for the answer of the one before, where else the processor works on several at a time.
 
 use peers::scene::{Group, Placement};
 use peers::server::{Answer, Contestant, serve};

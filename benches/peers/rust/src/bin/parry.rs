@@ -1,6 +1,7 @@
 //! parry3d-f64: GJK, and EPA where the bodies meet. Ways: contact, intersection (yes or no), distance.
 //!
-//! A rounded body is its core, and a contact is looked for up to twice the radius: as rapier, parry's own simulation, does.
+//! A rounded body is its core, and a contact is looked for up to twice the radius: as rapier, parry's own simulation,
+//! does.
 
 use parry3d_f64::math::{Pose, Rotation, Vector};
 use parry3d_f64::query::details::{

@@ -1,6 +1,7 @@
 //! Contact patches of the cases of patches.py: `patches FILE TOLERANCE SECONDS` prints a line of JSON for each line
-//! `LOWER UPPER x y z qw qx qy qz X Y Z` of the file, a body being `ball R`, `box HALF_X HALF_Y HALF_Z r` or, of the lower one, `ground`:
-//! force, torque about X Y Z, area and the estimated error for K = 1, and seconds a call from nothing and carried on.
+//! `LOWER UPPER x y z qw qx qy qz X Y Z` of the file, a body being `ball R`, `box HALF_X HALF_Y HALF_Z r` or, of the
+//! lower one, `ground`: force, torque about X Y Z, area and the estimated error for K = 1, and seconds a call from
+//! nothing and carried on.
 
 use potential_particles::nalgebra::Vector3;
 use potential_particles::{
@@ -10,7 +11,8 @@ use potential_particles::{
 use std::hint::black_box;
 use std::time::Instant;
 
-/// Far from rounding, and so small that a patch is carried on: the shift between the poses that calls take in turn, over the depth.
+/// Far from rounding, and so small that a patch is carried on: the shift between the poses that calls take in turn,
+/// over the depth.
 const SHIFT: f64 = 1e-4;
 
 /// What the last step left.

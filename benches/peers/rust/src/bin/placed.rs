@@ -1,8 +1,8 @@
-//! Where B must go for potential particles to overlap by what is asked: `placed PAIRS OVERLAP` prints, for each group a line, a list
-//! in JSON of [x, y, z, u, v, w]: the translation of B, along the line of centres, and the normal there.
+//! Where B must go for potential particles to overlap by what is asked: `placed PAIRS OVERLAP` prints, for each group a
+//! line, a list in JSON of [x, y, z, u, v, w]: the translation of B, along the line of centres, and the normal there.
 //!
-//! Rounding by a potential and by a swept ball give the same faces but other corners, so that poses at which one kind of bodies touches are
-//! deep or apart for the other.
+//! Rounding by a potential and by a swept ball give the same faces but other corners, so that poses at which one kind
+//! of bodies touches are deep or apart for the other.
 
 use peers::scene::{self, Group, Pair};
 use potential_particles::{Contact, Kind, Particle, Plane, Pose, Settings, detect};

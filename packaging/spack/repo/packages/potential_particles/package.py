@@ -3,7 +3,8 @@ from spack.package import *
 
 
 class PotentialParticles(Package):
-    """Contact detection between potential particles: convex shapes from sphere to polyhedron, with a bound on the error of every answer.
+    """Contact detection between potential particles: convex shapes from sphere to polyhedron, with a bound on the error
+    of every answer.
 
     From these sources: spack repo add packaging/spack/repo, then spack dev-build potential-particles@main.
     """
@@ -29,5 +30,6 @@ class PotentialParticles(Package):
                     "int main(void) { return pp_abi_version() == PP_ABI_VERSION ? 0 : 1; }\n"
                 )
             compiler = Executable(self.compiler.cc) if self.compiler else which("cc")
-            compiler("try.c", "-o", "try", f"-I{self.prefix.include}", f"-L{self.prefix.lib}", f"-Wl,-rpath,{self.prefix.lib}", "-lpotential_particles")
+            compiler("try.c", "-o", "try", f"-I{self.prefix.include}", f"-L{self.prefix.lib}",
+                     f"-Wl,-rpath,{self.prefix.lib}", "-lpotential_particles")
             Executable("./try")()
