@@ -2,7 +2,7 @@
 
 use super::assembly::{Assembly, Corner};
 use super::error::EquilibriumError;
-use super::program::{Goal, Near, Outcome, Solved, Strength, solve};
+use super::program::{BEST, Goal, Near, Outcome, Solved, Strength, solve};
 use super::scene::{Scene, Velocity};
 use nalgebra::Vector3;
 
@@ -14,7 +14,7 @@ const NO_DILATANCY: f64 = 1e-4;
 /// contact has more than three corners, and without this weight they jump from program to program. At the end of the
 /// sequence the distance is 0.
 const NEARNESS: f64 = 1e-3;
-/// A sequence has settled if its factor changes by no more than this part,
+/// A sequence has settled if its factor changes by no more than this part, or than a program is accurate,
 const SETTLED: f64 = 1e-7;
 /// and if no friction exceeds its strength by more than this, over the mean load of a body.
 const EXCESS: f64 = 1e-5;
@@ -175,7 +175,7 @@ impl Sequence<'_> {
             let excess = self.problem.excess(&solved, strength(solved.factor));
             // One program of load factors is the whole of the associated one.
             let whole = self.goal == Goal::Load && dilatancy == 1.0;
-            let settled = whole || change <= SETTLED * solved.factor.abs() && excess <= EXCESS;
+            let settled = whole || change <= (SETTLED * solved.factor.abs()).max(BEST) && excess <= EXCESS;
             if settled && dilatancy == if self.flow == Flow::Associated { 1.0 } else { 0.0 } {
                 return Ok(Ended::Settled(solved, excess, programs));
             }
