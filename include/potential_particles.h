@@ -165,6 +165,15 @@
 // struct pp_built, for pp_struct_size.
 #define PP_STRUCT_BUILT 34
 
+// struct pp_rigid_body, for pp_struct_size.
+#define PP_STRUCT_RIGID_BODY 35
+
+// struct pp_rigid_contact, for pp_struct_size.
+#define PP_STRUCT_RIGID_CONTACT 36
+
+// struct pp_equilibrium_result, for pp_struct_size.
+#define PP_STRUCT_EQUILIBRIUM_RESULT 37
+
 // Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
 // inactive; the derivative of s is the same either way.
 #define PP_DERIVATIVE_SWITCHING 1
@@ -178,6 +187,15 @@
 
 // Fewer than four digits may be right: depths of planes are of the size of their rounding.
 #define PP_DERIVATIVE_IMPRECISE 8
+
+// Question of pp_equilibrium: do forces exist that hold all bodies?
+#define PP_STANDS 0
+
+// Question of pp_equilibrium: the largest multiple of the live loads that can be borne.
+#define PP_LOAD_FACTOR 1
+
+// Question of pp_equilibrium: the factor of safety on friction and cohesion.
+#define PP_STRENGTH_FACTOR 2
 
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
@@ -595,6 +613,55 @@ typedef struct pp_flat_contact {
     // The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
     double on_particle[3];
 } pp_flat_contact;
+
+// A rigid body; torques are about its centre.
+typedef struct pp_rigid_body {
+    // Centre of mass.
+    double centre[3];
+    // Force that is there.
+    double dead_force[3];
+    // Torque that is there.
+    double dead_torque[3];
+    // Force that the load factor multiplies.
+    double live_force[3];
+    // Torque that it multiplies.
+    double live_torque[3];
+    // 1: it carries whatever comes, and does not move.
+    uint64_t held;
+} pp_rigid_body;
+
+// A polygon, a line or a point on which two bodies touch.
+typedef struct pp_rigid_contact {
+    // Indices of the bodies.
+    uint64_t bodies[2];
+    // How many of the corners are its own: 1 or more, in their order about it.
+    uint64_t corner_count;
+    // From the first body to the second, of any length.
+    double normal[3];
+    // On which cohesion and tension act.
+    double area;
+    // Coefficient of friction.
+    double friction;
+    // Shear strength without pressure, a stress.
+    double cohesion;
+    // Tensile strength, a stress.
+    double tension;
+} pp_rigid_contact;
+
+// What pp_equilibrium finds.
+typedef struct pp_equilibrium_result {
+    // 1: forces in equilibrium exist (for a factor: for any factor). 0: velocities are those of a motion
+    // that proves that none do.
+    uint32_t stands;
+    // Number of cone programs.
+    uint32_t programs;
+    // The load factor or the factor of safety; 0 for PP_STANDS and where nothing stands.
+    double factor;
+    // The largest force, or torque over the size of the body, that is left on a body, over the mean load.
+    double unbalanced;
+    // The largest friction beyond its strength at a corner, over the mean load.
+    double excess;
+} pp_equilibrium_result;
 
 // What pp_pack fills, and how.
 typedef struct pp_packing {
@@ -1078,6 +1145,9 @@ typedef struct pp_joint_set {
 // No rock mass can be cut with these values; the message names the one at fault.
 #define PP_BAD_ROCK 31
 
+// Limit analysis has no answer for this scene; the message says why.
+#define PP_BAD_EQUILIBRIUM 32
+
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1291,6 +1361,36 @@ pp_status pp_flat_contact_gradient(const struct pp_particle *a,
                                    struct pp_shape_gradient *shape,
                                    struct pp_pose_gradient *poses,
                                    uint32_t *flags);
+
+// Limit analysis of rigid bodies: forces at the corners of their contacts that keep each free body in
+// equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a the area over the number of corners;
+// and how the bodies move at the limit.
+//
+// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 1: joints open by the tangent of the
+// friction angle as they slip, for a bound by one program; 0: they do not (PP_STANDS asks for neither).
+// corners: rows of x, y, z, those of the first contact first; corner_count: of all contacts.
+// result: receives the answer. forces: receives rows of x, y, z: the force on the second body of its
+// contact at each corner, 0 where nothing stands (may be NULL). velocities: receives six numbers for each
+// body, linear and angular, the fastest corner at 1; 0 for PP_STANDS of what stands (may be NULL).
+// message: receives, on failure, a sentence that names the body, contact or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_BAD_EQUILIBRIUM, PP_BAD_SETTING (an unknown question, held or dilatant other
+// than 0 and 1), PP_BAD_INDEX (corners that are not as many as the contacts have), PP_SOLVER_FAILED (it may
+// stand or fall), PP_NO_CONE_PROGRAM.
+// Pointers: bodies points to body_count, contacts to contact_count structs, corners to 3*corner_count
+// doubles, forces is NULL or valid for as many, velocities for 6*body_count, message for message_size bytes.
+pp_status pp_equilibrium(uint32_t question,
+                         uint32_t dilatant,
+                         const struct pp_rigid_body *bodies,
+                         size_t body_count,
+                         const struct pp_rigid_contact *contacts,
+                         size_t contact_count,
+                         const double *corners,
+                         size_t corner_count,
+                         struct pp_equilibrium_result *result,
+                         double *forces,
+                         double *velocities,
+                         char *message,
+                         size_t message_size);
 
 // Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
 // (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts

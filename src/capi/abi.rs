@@ -2,6 +2,7 @@
 
 use super::builder::pp_built;
 use super::derivative::{pp_contact_weights, pp_derivatives, pp_pose_gradient, pp_shape_gradient};
+use super::equilibrium::{pp_equilibrium_result, pp_rigid_body, pp_rigid_contact};
 use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
 use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
@@ -90,6 +91,12 @@ pub const PP_STRUCT_POSE_GRADIENT: u32 = 32;
 pub const PP_STRUCT_PATCH_DERIVATIVES: u32 = 33;
 /// struct pp_built, for pp_struct_size.
 pub const PP_STRUCT_BUILT: u32 = 34;
+/// struct pp_rigid_body, for pp_struct_size.
+pub const PP_STRUCT_RIGID_BODY: u32 = 35;
+/// struct pp_rigid_contact, for pp_struct_size.
+pub const PP_STRUCT_RIGID_CONTACT: u32 = 36;
+/// struct pp_equilibrium_result, for pp_struct_size.
+pub const PP_STRUCT_EQUILIBRIUM_RESULT: u32 = 37;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.
 #[unsafe(no_mangle)]
@@ -143,6 +150,9 @@ pub extern "C" fn pp_struct_size(which: u32) -> usize {
         PP_STRUCT_POSE_GRADIENT => size_of::<pp_pose_gradient>(),
         PP_STRUCT_PATCH_DERIVATIVES => size_of::<pp_patch_derivatives>(),
         PP_STRUCT_BUILT => size_of::<pp_built>(),
+        PP_STRUCT_RIGID_BODY => size_of::<pp_rigid_body>(),
+        PP_STRUCT_RIGID_CONTACT => size_of::<pp_rigid_contact>(),
+        PP_STRUCT_EQUILIBRIUM_RESULT => size_of::<pp_equilibrium_result>(),
         _ => 0,
     }
 }

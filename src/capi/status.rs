@@ -68,6 +68,8 @@ pub const PP_BAD_SIZE: pp_status = 28;
 pub const PP_BAD_PACKING: pp_status = 30;
 /// No rock mass can be cut with these values; the message names the one at fault.
 pub const PP_BAD_ROCK: pp_status = 31;
+/// Limit analysis has no answer for this scene; the message says why.
+pub const PP_BAD_EQUILIBRIUM: pp_status = 32;
 
 /// Every code with its sentence; pp_status_message and the tests read this one table.
 const MESSAGES: &[(pp_status, &CStr)] = &[
@@ -110,6 +112,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BAD_SIZE, c"the particle reaches less than 1e-30 or more than 1e30 from its centre: take another unit of length"),
     (PP_BAD_PACKING, c"nothing can be packed with these values; the message of pp_pack names the one at fault"),
     (PP_BAD_ROCK, c"no rock mass can be cut with these values; the message names the one at fault"),
+    (PP_BAD_EQUILIBRIUM, c"limit analysis has no answer for this scene; the message of pp_equilibrium says why"),
 ];
 
 /// The sentence of a status code, if it is one.

@@ -35,8 +35,11 @@ static void sizes_are_those_of_the_library(void) {
     CHECK(pp_struct_size(PP_STRUCT_POSE_GRADIENT) == sizeof(pp_pose_gradient));
     CHECK(pp_struct_size(PP_STRUCT_PATCH_DERIVATIVES) == sizeof(pp_patch_derivatives));
     CHECK(pp_struct_size(PP_STRUCT_BUILT) == sizeof(pp_built));
+    CHECK(pp_struct_size(PP_STRUCT_RIGID_BODY) == sizeof(pp_rigid_body));
+    CHECK(pp_struct_size(PP_STRUCT_RIGID_CONTACT) == sizeof(pp_rigid_contact));
+    CHECK(pp_struct_size(PP_STRUCT_EQUILIBRIUM_RESULT) == sizeof(pp_equilibrium_result));
     /* 3, 10 and 11 were structs of an older interface. */
-    const uint32_t unknown[] = {0, 3, 10, 11, 35, UINT32_MAX};
+    const uint32_t unknown[] = {0, 3, 10, 11, 38, UINT32_MAX};
     for (int i = 0; i < 6; i++) CHECK(pp_struct_size(unknown[i]) == 0);
 }
 
@@ -186,6 +189,14 @@ void test_layout(void) {
     CHECK(sizeof(pp_rock_summary) == 64);
     CHECK(offsetof(pp_rock_summary, partners) == 24);
     CHECK(offsetof(pp_rock_summary, unclosed) == 56);
+    CHECK(sizeof(pp_rigid_body) == 128);
+    CHECK(offsetof(pp_rigid_body, live_torque) == 96);
+    CHECK(offsetof(pp_rigid_body, held) == 120);
+    CHECK(sizeof(pp_rigid_contact) == 80);
+    CHECK(offsetof(pp_rigid_contact, normal) == 24);
+    CHECK(offsetof(pp_rigid_contact, tension) == 72);
+    CHECK(sizeof(pp_equilibrium_result) == 32);
+    CHECK(offsetof(pp_equilibrium_result, factor) == 8);
     CHECK(sizeof(pp_block) == 112);
     CHECK(offsetof(pp_block, centroid) == 8);
     CHECK(offsetof(pp_block, inertia) == 32);

@@ -44,5 +44,6 @@ int main(int count, char **arguments) {
     test_derivatives();
     test_rock();
     test_builder();
+    test_equilibrium();
     return check_report();
 }

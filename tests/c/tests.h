@@ -29,5 +29,6 @@ void test_patch(void);
 void test_derivatives(void);
 void test_rock(void);
 void test_builder(void);
+void test_equilibrium(void);
 
 #endif

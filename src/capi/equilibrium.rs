@@ -1,0 +1,215 @@
+//! Limit analysis over the C boundary: one call for a scene of rigid bodies.
+
+use super::fence::{array, output, outputs};
+use super::message::{Refusal, explained};
+use super::status::*;
+use std::ffi::c_char;
+
+/// Question of pp_equilibrium: do forces exist that hold all bodies?
+pub const PP_STANDS: u32 = 0;
+/// Question of pp_equilibrium: the largest multiple of the live loads that can be borne.
+pub const PP_LOAD_FACTOR: u32 = 1;
+/// Question of pp_equilibrium: the factor of safety on friction and cohesion.
+pub const PP_STRENGTH_FACTOR: u32 = 2;
+
+/// A rigid body; torques are about its centre.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_rigid_body {
+    /// Centre of mass.
+    pub centre: [f64; 3],
+    /// Force that is there.
+    pub dead_force: [f64; 3],
+    /// Torque that is there.
+    pub dead_torque: [f64; 3],
+    /// Force that the load factor multiplies.
+    pub live_force: [f64; 3],
+    /// Torque that it multiplies.
+    pub live_torque: [f64; 3],
+    /// 1: it carries whatever comes, and does not move.
+    pub held: u64,
+}
+
+/// A polygon, a line or a point on which two bodies touch.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_rigid_contact {
+    /// Indices of the bodies.
+    pub bodies: [u64; 2],
+    /// How many of the corners are its own: 1 or more, in their order about it.
+    pub corner_count: u64,
+    /// From the first body to the second, of any length.
+    pub normal: [f64; 3],
+    /// On which cohesion and tension act.
+    pub area: f64,
+    /// Coefficient of friction.
+    pub friction: f64,
+    /// Shear strength without pressure, a stress.
+    pub cohesion: f64,
+    /// Tensile strength, a stress.
+    pub tension: f64,
+}
+
+/// What pp_equilibrium finds.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Default)]
+pub struct pp_equilibrium_result {
+    /// 1: forces in equilibrium exist (for a factor: for any factor). 0: velocities are those of a motion
+    /// that proves that none do.
+    pub stands: u32,
+    /// Number of cone programs.
+    pub programs: u32,
+    /// The load factor or the factor of safety; 0 for PP_STANDS and where nothing stands.
+    pub factor: f64,
+    /// The largest force, or torque over the size of the body, that is left on a body, over the mean load.
+    pub unbalanced: f64,
+    /// The largest friction beyond its strength at a corner, over the mean load.
+    pub excess: f64,
+}
+
+/// Limit analysis of rigid bodies: forces at the corners of their contacts that keep each free body in
+/// equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a the area over the number of corners;
+/// and how the bodies move at the limit.
+///
+/// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 1: joints open by the tangent of the
+/// friction angle as they slip, for a bound by one program; 0: they do not (PP_STANDS asks for neither).
+/// corners: rows of x, y, z, those of the first contact first; corner_count: of all contacts.
+/// result: receives the answer. forces: receives rows of x, y, z: the force on the second body of its
+/// contact at each corner, 0 where nothing stands (may be NULL). velocities: receives six numbers for each
+/// body, linear and angular, the fastest corner at 1; 0 for PP_STANDS of what stands (may be NULL).
+/// message: receives, on failure, a sentence that names the body, contact or value (may be NULL).
+/// Errors: PP_NULL_POINTER, PP_BAD_EQUILIBRIUM, PP_BAD_SETTING (an unknown question, held or dilatant other
+/// than 0 and 1), PP_BAD_INDEX (corners that are not as many as the contacts have), PP_SOLVER_FAILED (it may
+/// stand or fall), PP_NO_CONE_PROGRAM.
+/// Pointers: bodies points to body_count, contacts to contact_count structs, corners to 3*corner_count
+/// doubles, forces is NULL or valid for as many, velocities for 6*body_count, message for message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_equilibrium(
+    question: u32,
+    dilatant: u32,
+    bodies: *const pp_rigid_body,
+    body_count: usize,
+    contacts: *const pp_rigid_contact,
+    contact_count: usize,
+    corners: *const f64,
+    corner_count: usize,
+    result: *mut pp_equilibrium_result,
+    forces: *mut f64,
+    velocities: *mut f64,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    let solve = || {
+        let (bodies, contacts) = unsafe { (array(bodies, body_count)?, array(contacts, contact_count)?) };
+        let corners = unsafe { array(corners.cast::<[f64; 3]>(), corner_count) }?;
+        let result = unsafe { output(result) }?;
+        let rows = |of: *mut f64, count: usize| if of.is_null() { 0 } else { count };
+        let forces = unsafe { outputs(forces.cast::<[f64; 3]>(), rows(forces, corner_count)) }?;
+        let velocities = unsafe { outputs(velocities.cast::<[f64; 6]>(), rows(velocities, body_count)) }?;
+        let found = match answer(question, dilatant, bodies, contacts, corners)? {
+            Ok(found) => found,
+            Err(error) => return Ok(Err(error)),
+        };
+        let (head, found_forces, found_velocities) = found;
+        let mut found_forces = found_forces.into_iter();
+        forces.iter_mut().for_each(|place| _ = place.write(found_forces.next().unwrap_or_default()));
+        let mut found_velocities = found_velocities.into_iter();
+        velocities.iter_mut().for_each(|place| _ = place.write(found_velocities.next().unwrap_or_default()));
+        result.write(head);
+        Ok(Ok(()))
+    };
+    unsafe { explained(solve, "bodies, contacts, corners and result must not be NULL", message, message_size) }
+}
+
+/// The result, rows of forces and of velocities.
+type Found = (pp_equilibrium_result, Vec<[f64; 3]>, Vec<[f64; 6]>);
+
+#[cfg(feature = "cone-program")]
+use crate::equilibrium::{
+    Body, Contact, Equilibrium, EquilibriumError, Flow, Load, Scene, Velocity, load_factor, stands, strength_factor,
+};
+
+#[cfg(feature = "cone-program")]
+fn answer(
+    question: u32,
+    dilatant: u32,
+    bodies: &[pp_rigid_body],
+    contacts: &[pp_rigid_contact],
+    corners: &[[f64; 3]],
+) -> Result<Result<Found, EquilibriumError>, pp_status> {
+    let flow = match dilatant {
+        0 => Flow::NonDilatant,
+        1 => Flow::Associated,
+        _ => return Err(PP_BAD_SETTING),
+    };
+    let load = |force: [f64; 3], torque: [f64; 3]| Load { force: force.into(), torque: torque.into() };
+    let body = |body: &pp_rigid_body| {
+        let held = match body.held {
+            0 => false,
+            1 => true,
+            _ => return Err(PP_BAD_SETTING),
+        };
+        let (dead, live) = (load(body.dead_force, body.dead_torque), load(body.live_force, body.live_torque));
+        Ok(Body { centre: body.centre.into(), held, dead, live })
+    };
+    let mut left = corners;
+    let contact = |contact: &pp_rigid_contact| {
+        let count = usize::try_from(contact.corner_count).unwrap_or(usize::MAX);
+        let (own, others) = left.split_at_checked(count).ok_or(PP_BAD_INDEX)?;
+        left = others;
+        Ok(Contact {
+            bodies: contact.bodies.map(|index| usize::try_from(index).unwrap_or(usize::MAX)),
+            corners: own.iter().map(|&at| at.into()).collect(),
+            normal: contact.normal.into(),
+            area: contact.area,
+            friction: contact.friction,
+            cohesion: contact.cohesion,
+            tension: contact.tension,
+        })
+    };
+    let bodies = bodies.iter().map(body).collect::<Result<_, pp_status>>()?;
+    let contacts = contacts.iter().map(contact).collect::<Result<_, pp_status>>()?;
+    if !left.is_empty() {
+        return Err(PP_BAD_INDEX);
+    }
+    let scene = Scene { bodies, contacts };
+    let found = match question {
+        PP_STANDS => stands(&scene),
+        PP_LOAD_FACTOR => load_factor(&scene, flow),
+        PP_STRENGTH_FACTOR => strength_factor(&scene, flow),
+        _ => return Err(PP_BAD_SETTING),
+    };
+    let six = |Velocity { linear: v, angular: w }: Velocity| [v.x, v.y, v.z, w.x, w.y, w.z];
+    Ok(found.map(|Equilibrium { stands, factor, forces, mechanism, unbalanced, excess, programs }| {
+        let head = pp_equilibrium_result { stands: stands.into(), programs, factor, unbalanced, excess };
+        (head, forces.into_iter().map(<[f64; 3]>::from).collect(), mechanism.into_iter().map(six).collect())
+    }))
+}
+
+#[cfg(feature = "cone-program")]
+impl Refusal for EquilibriumError {
+    fn status(&self) -> pp_status {
+        match self {
+            Self::NotConverged { .. } | Self::NotSettled { .. } => PP_SOLVER_FAILED,
+            _ => PP_BAD_EQUILIBRIUM,
+        }
+    }
+}
+
+#[cfg(not(feature = "cone-program"))]
+fn answer(
+    _: u32,
+    _: u32,
+    _: &[pp_rigid_body],
+    _: &[pp_rigid_contact],
+    _: &[[f64; 3]],
+) -> Result<Result<Found, std::convert::Infallible>, pp_status> {
+    Err(PP_NO_CONE_PROGRAM)
+}
+
+#[cfg(not(feature = "cone-program"))]
+impl Refusal for std::convert::Infallible {
+    fn status(&self) -> pp_status {
+        match *self {}
+    }
+}
