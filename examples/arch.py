@@ -27,4 +27,6 @@ O.engines = [
 O.dt = potential_particles.critical_time_step()
 O.run(int(0.5 / O.dt), wait=True)
 print(f"{O.iter} steps, fastest stone {max(body.state.vel.norm() for body in O.bodies):.1e} m/s")
+found = potential_particles.limit_analysis("load", push=(1, 0, 0))
+print(f"it would bear {found.factor:.3f} g sideways")
 potential_particles.plot("arch.png", patches=True, towards=(0.5, -0.8, 0.3), size=(1000, 640))

@@ -45,6 +45,7 @@ from .bodies import body
 from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
 from .lammps import to_lammps
+from .limit_analysis import limit_analysis
 from .measures import (body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity,
                        solid_volume, stress)
 from .outside import protect_runs
@@ -58,8 +59,9 @@ __version__ = "0.2.0"
 __all__ = [
     "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
     "bond_contacts", "check", "clump", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
-    "grading_curve", "library_version", "mesh", "overlap_ratio", "pack", "plot", "porosity", "prepare", "protect_runs",
-    "sampled_porosity", "save", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps", "use_joints"
+    "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "porosity", "prepare",
+    "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps",
+    "use_joints"
 ]
 
 

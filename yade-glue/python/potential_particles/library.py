@@ -9,6 +9,7 @@ import functools
 import numpy as np
 
 _MESSAGE_SIZE = 512
+_SOLVER_FAILED = 8
 
 
 @functools.lru_cache(maxsize=1)
@@ -45,10 +46,14 @@ def made(name, *arguments, results=()):
 
 
 def refuse(name, *arguments):
-    """ValueError with the sentence of a function that makes nothing, if it writes one."""
+    """ValueError with the sentence of a function that makes nothing, if it writes one; RuntimeError if a solver has no
+    answer.
+    """
     why = ctypes.create_string_buffer(_MESSAGE_SIZE)
-    if getattr(_library(), name)(*map(_given, arguments), why, ctypes.c_size_t(_MESSAGE_SIZE)):
-        raise ValueError(why.value.decode())
+    status = getattr(_library(), name)(*map(_given, arguments), why, ctypes.c_size_t(_MESSAGE_SIZE))
+    if status:
+        said = why.value.decode() or _library().pp_status_message(status).decode()
+        raise (RuntimeError if status == _SOLVER_FAILED else ValueError)(said)
 
 
 def rows(name, handle, width, kind=float):

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Limit analysis of scenes as they stand: closed forms, what carries them, what a simulation does, and bad input.
+import math
+
+import numpy as np
+import potential_particles
+from harness import *
+from potential_particles import limit_analysis, shapes
+
+check = Checks()
+HEIGHT, ROUNDING = 2.0, 1e-3
+# The faces of a cuboid of width 1 are flat up to its roundings.
+FLAT = 1.0 - 2 * ROUNDING
+
+
+def floor(kind):
+    """A held body with its upper side at z = 0."""
+    if kind == "wall":
+        return utils.wall(0.0, axis=2, sense=1)
+    if kind == "facet":
+        return utils.facet([(-9, -9, 0), (9, -9, 0), (0, 18, 0)], fixed=True)
+    if kind == "box":
+        return utils.box((0, 0, -1), (4, 4, 1), fixed=True)
+    return potential_particles.body(shapes.cuboid((8, 8, 2), r=ROUNDING, k=0), position=(0, 0, -1), fixed=True)
+
+
+def block_on(kind="particle", friction=0.5, angle=0.0, joints=True, height=HEIGHT, **strength):
+    """A cuboid of width 1 on a floor, gravity turned about y by an angle; one step has been made."""
+    O.reset()
+    common = dict(young=1e9, poisson=0.3, density=1000, frictionAngle=math.atan(friction))
+    O.materials.append(ConicJointMat(**common, **strength) if joints else FrictMat(**common))
+    O.bodies.append(floor(kind))
+    block = shapes.cuboid((1, 1, height), r=ROUNDING, k=0)
+    O.bodies.append(potential_particles.body(block, position=(0, 0, 0.5 * height - 1e-5)))
+    functors = [Ig2_PP_PP_ScGeom_Conic(patch=joints), Ig2_Wall_ConicPP_ScGeom(patch=joints),
+                Ig2_Facet_ConicPP_ScGeom(patch=joints)] + [Ig2_Box_ConicPP_ScGeom()] * (kind == "box")
+    laws = ([Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()], [Law2_ScGeomConicPP_ConicJointPhys()]) if joints else (
+        [Ip2_FrictMat_FrictMat_FrictPhys()], [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)])
+    boxes = [PotentialParticle2AABB(), Bo1_Box_Aabb(), Bo1_Wall_Aabb(), Bo1_Facet_Aabb()]
+    gravity = 9.81 * Vector3(math.sin(angle), 0, -math.cos(angle))
+    O.engines = [ForceResetter(), InsertionSortCollider(boxes),
+                 InteractionLoop(functors, *laws), NewtonIntegrator(gravity=gravity)]
+    O.dt = 1e-6
+    O.step()
+
+
+# A block on each kind of floor: it slides or turns over under a push, and slides on a slope.
+for kind in ("particle", "wall", "facet", "box"):
+    block_on(kind, joints=kind != "box")
+    steps = O.iter
+    found = limit_analysis("load", push=(1, 0, 0))
+    check.equal((found.stands, len(found.contacts), len(found.corners)), (True, 1, 4), f"{kind}: {found}")
+    check.close(found.factor, FLAT / HEIGHT, 2e-5, f"{kind}: it turns over")
+    turning = found.velocities[1][1]
+    check.true(turning[1] > 0.1 and abs(turning[0]) < 1e-3, f"{kind}: about y, {turning}")
+    weight = O.bodies[1].state.mass * 9.81
+    sense = 1 if O.interactions.all()[0].id2 == 1 else -1
+    total = sense * found.forces.sum(axis=0)
+    check.close(Vector3(*total), weight * Vector3(-found.factor, 0, 1), 1e-5 * weight, f"{kind}: forces at the corners")
+    check.equal(O.iter, steps, f"{kind}: no step is made")
+    block_on(kind, friction=0.3, joints=kind != "box")
+    check.close(limit_analysis("load", push=(0, -1, 0)).factor, 0.3, 1e-5, f"{kind}: it slides")
+    check.true(limit_analysis().stands, f"{kind}: it stands")
+    block_on(kind, friction=0.6, angle=0.2, joints=kind != "box")
+    check.close(limit_analysis("strength").factor, 0.6 / math.tan(0.2), 1e-4, f"{kind}: factor of safety")
+
+# Just above and below the limit, a simulation says the same.
+for friction in (0.98 * math.tan(0.3), 1.02 * math.tan(0.3)):
+    # A low block, which does not rock where gravity sets in.
+    block_on(friction=friction, angle=0.3, height=0.3, restitution=0.1)
+    says = limit_analysis().stands
+    O.dt = potential_particles.critical_time_step()
+    O.run(int(0.2 / O.dt), wait=True)
+    speed = O.bodies[1].state.vel.norm()
+    sliding = 9.81 * math.cos(0.3) * (math.tan(0.3) - friction) * 0.2
+    check.close(speed, max(sliding, 0.0), 2e-3, f"friction {friction:.4f}: it {'stands' if says else 'slides'}")
+    check.equal(says, sliding < 0.0, f"friction {friction:.4f}: as the simulation")
+
+# Strength of joints as they stand, lasting forces, other live loads.
+block_on(friction=0.3, cohesion=2e3)
+weight = O.bodies[1].state.mass * 9.81
+joint = O.interactions[0, 1]
+held = (0.3 * weight + 2e3 * FLAT**2) / weight if not joint.phys.broken else 0.3
+check.close(limit_analysis("load", push=(0.5, 0, 0)).factor, 2 * min(held, FLAT / HEIGHT), 1e-3, "cohesion as it stands")
+block_on(friction=0.3)
+O.forces.setPermF(1, (0, 0, -weight))
+found = limit_analysis("load", loads={1: ((weight, 0, 0), (0, -0.5 * HEIGHT * weight, 0))})
+check.close(found.factor, 0.6, 1e-4, "a lasting force presses, a live force and torque push at the foot")
+check.true(limit_analysis("load", push=(1, 0, 0), dilatant=True).factor >= 0.6 - 1e-4, "the bound is above")
+
+# What has no answer is refused by name.
+for change, text in (
+    (lambda: limit_analysis("falls"), "'falls' is unknown"), (lambda: limit_analysis("load"), "live load"),
+    (lambda: limit_analysis(loads={7: ((1, 0, 0), (0, 0, 0))}), "names body 7"),
+    (lambda: limit_analysis(push=(1, math.nan, 0)), "push"), (lambda: limit_analysis("strength"), "without friction")):
+    block_on()
+    check.raises(ValueError, change, f"refused: {text}", text)
+block_on()
+O.bodies[1].state.vel = (1, 0, 0)
+check.raises(ValueError, limit_analysis, "in motion", "body 1 moves at 1 m/s")
+block_on()
+O.bodies[1].state.blockedDOFs = "y"
+check.raises(ValueError, limit_analysis, "blocked in part", "blockedDOFs='y'")
+block_on()
+O.bodies[0].state.blockedDOFs = ""
+check.raises(ValueError, limit_analysis, "no support", "no body is held")
+O.reset()
+check.raises(ValueError, limit_analysis, "an empty scene", "has no contacts")
+
+check.finish()

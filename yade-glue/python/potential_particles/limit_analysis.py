@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Limit analysis of the scene as it stands: does it stand, how much more could it bear, how much weaker could its
+joints be? By the library's cone programs (docs/equilibrium.md), without a step.
+"""
+import ctypes
+import dataclasses
+import math
+
+import numpy as np
+
+from . import library
+from .arguments import vector
+from .bodies import is_free
+from .lammps_limits import lasting
+
+QUESTIONS = {"stands": 0, "load": 1, "strength": 2}
+# A face touches where its normal is within this angle of that of the contact, radians.
+FLAT = 0.02
+# Corners nearer to each other than this, over the size of the polygon, are one.
+SAME = 1e-9
+# A scene is at rest if its bodies are slower than this part of the speed of a fall by their own size.
+SLOW = 0.01
+
+
+class _Body(ctypes.Structure):
+    _fields_ = [(name, ctypes.c_double * 3)
+                for name in ("centre", "dead_force", "dead_torque", "live_force", "live_torque")]
+    _fields_ += [("held", ctypes.c_uint64)]
+
+
+class _Contact(ctypes.Structure):
+    _fields_ = [("bodies", ctypes.c_uint64 * 2), ("corner_count", ctypes.c_uint64), ("normal", ctypes.c_double * 3)]
+    _fields_ += [(name, ctypes.c_double) for name in ("area", "friction", "cohesion", "tension")]
+
+
+class _Result(ctypes.Structure):
+    _fields_ = [("stands", ctypes.c_uint32), ("programs", ctypes.c_uint32)]
+    _fields_ += [(name, ctypes.c_double) for name in ("factor", "unbalanced", "excess")]
+
+
+@dataclasses.dataclass(frozen=True, repr=False)
+class Equilibrium:
+    """Forces in equilibrium, and the motion at the limit."""
+    question: str
+    stands: bool  #: whether forces in equilibrium exist; of a factor: for any factor
+    factor: float  #: load factor or factor of safety; 0 for "stands"
+    contacts: list  #: (id1, id2) of the contacts
+    corners: np.ndarray  #: (n, 3), world frame
+    contact_of_corner: np.ndarray  #: (n,), index in contacts
+    forces: np.ndarray  #: (n, 3), on body id2 at each corner; 0 where nothing stands
+    velocities: dict  #: {id: (linear, angular)} of the mechanism, the fastest corner at 1; 0 where it stands
+    unbalanced: float  #: the largest force that is left on a body, over the mean load of one
+    excess: float  #: the largest friction beyond its strength at a corner, over the mean load of a body
+    programs: int  #: number of cone programs
+
+    def __repr__(self):
+        said = "stands" if self.stands else "falls"
+        factor = "" if self.question == "stands" or not self.stands else f", factor {self.factor:.6g}"
+        return f"<Equilibrium: {said}{factor}; {len(self.contacts)} contacts, {self.programs} programs>"
+
+
+def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
+    """Whether forces at the contacts of the scene, as they are, can hold all bodies. No step is made.
+
+    question: "stands"; "load", for the largest multiple of the live loads that can be borne; "strength", for the
+    factor of safety on the tangents of friction angles and on cohesion. push: (3,), a live load of each body's weight
+    in this direction, as an earthquake in shares of gravity. loads: {id: (force, torque)}, other live loads, torque
+    about the centre. dilatant=True: joints open as they slip, for a bound by one program.
+
+    Dead loads are weights (NewtonIntegrator.gravity) and lasting forces (O.forces.addF(..., permanent=True)). Bodies
+    with all degrees of freedom blocked are held. Joints (ConicJointMat) have their cohesion and tensile strength as
+    they stand: broken ones the residual values, unbonded ones no tension.
+
+    Returns an Equilibrium. ValueError: an unknown question, a scene without contacts, in motion, with bodies that
+    are blocked in part, overlaps beyond the rounding radius, or a factor that is infinite. RuntimeError: the programs
+    did not converge; the scene may stand or fall.
+    """
+    import yade
+    if question not in QUESTIONS:
+        raise ValueError(f"question={question!r} is unknown: give {', '.join(map(repr, QUESTIONS))}")
+    gravity = _gravity(yade.O.engines)
+    live = {int(body): load for body, load in (loads or {}).items()}
+    if unknown := [body for body in live if not _exists(yade.O, body)]:
+        raise ValueError(f"loads names body {unknown[0]}: there is no such body")
+    direction = vector((0, 0, 0) if push is None else push, "push")
+    found = [_polygon(contact) for contact in yade.O.interactions if contact.isReal]
+    if not found:
+        raise ValueError("the scene has no contacts: run a step, so that they are found")
+    ids = sorted({one.id for one in map(_owner, yade.O.bodies) if is_free(one)} | {one for f in found for one in f[0]})
+    place = {body: index for index, body in enumerate(ids)}
+    bodies = (_Body * len(ids))(*(_body(yade.O, one, gravity, direction, live.get(one)) for one in ids))
+    contacts = (_Contact * len(found))()
+    for row, ((first, second), contact, corners, area) in zip(contacts, found):
+        row.bodies[:] = place[first], place[second]
+        row.corner_count, row.area = len(corners), area
+        row.normal[:] = contact.geom.normal
+        row.friction, row.cohesion, row.tension = _strength(contact.phys)
+    corners = np.ascontiguousarray(np.vstack([one[2] for one in found]))
+    result, forces, velocities = _Result(), np.zeros_like(corners), np.zeros((len(ids), 6))
+    library.refuse("pp_equilibrium", ctypes.c_uint32(QUESTIONS[question]), ctypes.c_uint32(bool(dilatant)), bodies,
+                  len(ids), contacts, len(found), corners, len(corners), ctypes.byref(result), forces, velocities)
+    return Equilibrium(question, bool(result.stands), result.factor, [(one[1].id1, one[1].id2) for one in found],
+                       corners, np.repeat(np.arange(len(found)), [len(one[2]) for one in found]), forces,
+                       {one: (velocities[i, :3], velocities[i, 3:]) for one, i in place.items()}, result.unbalanced,
+                       result.excess, result.programs)
+
+
+def _exists(scene, body):
+    return 0 <= body < len(scene.bodies) and scene.bodies[body] is not None
+
+
+def _owner(body):
+    """What moves: the clump of a member."""
+    import yade
+    return yade.O.bodies[body.clumpId] if body.isClumpMember else body
+
+
+def _gravity(engines):
+    import yade
+    for engine in engines:
+        if isinstance(engine, yade.NewtonIntegrator):
+            return np.array(engine.gravity)
+    return np.zeros(3)
+
+
+def _body(scene, number, gravity, direction, live):
+    body = scene.bodies[number]
+    state, blocked = body.state, set(body.state.blockedDOFs)
+    free = is_free(body)
+    if free and blocked:
+        raise ValueError(f"body {number} has blockedDOFs={state.blockedDOFs!r}: limit analysis knows bodies that are "
+                         "held and bodies that are free; block all or none")
+    made = _Body(held=not free)
+    made.centre[:] = state.pos
+    if free:
+        _refuse_motion(body, np.linalg.norm(gravity))
+        weight = state.mass * gravity
+        made.dead_force[:] = weight + np.array(lasting(scene.forces.permF, body))
+        made.dead_torque[:] = lasting(scene.forces.permT, body)
+        force, torque = ((0, 0, 0), (0, 0, 0)) if live is None else live
+        made.live_force[:] = np.linalg.norm(weight) * direction + vector(force, f"force on body {number}")
+        made.live_torque[:] = vector(torque, f"torque on body {number}")
+    return made
+
+
+def _refuse_motion(body, gravity):
+    # The radius of a ball of its inertia will do for its size.
+    size = math.sqrt(2.5 * max(body.state.inertia) / body.state.mass)
+    speed = max(body.state.vel.norm(), size * body.state.angVel.norm())
+    if speed > SLOW * math.sqrt(2 * gravity * size) > 0:
+        raise ValueError(f"body {body.id} moves at {speed:.3g} m/s: let the scene come to rest, or set velocities to 0")
+
+
+def _strength(physics):
+    """Friction, cohesion and tensile strength of a contact as it stands."""
+    friction = getattr(physics, "tangensOfFrictionAngle", None)
+    if friction is None:
+        raise ValueError(f"{type(physics).__name__} has no friction angle: take FrictPhys or ConicJointPhys")
+    if not hasattr(physics, "residualCohesion"):
+        return friction, 0.0, 0.0
+    if physics.broken:
+        return physics.tangensOfResidualFrictionAngle, physics.residualCohesion, 0.0
+    return friction, physics.cohesion, physics.tensileStrength if physics.bonded else 0.0
+
+
+def _polygon(contact):
+    """(ids of what moves, contact, corners (n, 3), area): the part of the plane across the normal at the contact point
+    in which both bodies are flat; the point itself where there is none.
+    """
+    import yade
+    pair = [yade.O.bodies[contact.id1], yade.O.bodies[contact.id2]]
+    point, normal = np.array(contact.geom.contactPoint), np.array(contact.geom.normal)
+    radii = [body.shape.r for body in pair if hasattr(body.shape, "planes") and body.shape.k < 1]
+    overlap = contact.geom.penetrationDepth
+    if radii and overlap > sum(radii):
+        raise ValueError(f"bodies {contact.id1} and {contact.id2} overlap by {overlap:.3g}, more than the rounding radii "
+                         "together: start them apart, or take stiffer contacts")
+    # Contact points of a pair in a periodic cell are by the first body.
+    shift = np.zeros(3) if not yade.O.periodic else np.array(yade.O.cell.hSize * contact.cellDist)
+    bounds = [rows for body, sense, away in zip(pair, (1, -1), (0 * shift, shift))
+              for rows in _bounds(body, sense * normal, away)]
+    corners = np.array([point])
+    if all(one is not None for one in bounds):
+        across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+        across /= np.linalg.norm(across)
+        frame = np.stack([across, np.cross(normal, across)])
+        reach = 2.0 * max((abs(offset - n @ point) for n, offset in bounds), default=0.0) or 1.0
+        flat = _clipped(frame, point, bounds, 10.0 * reach)
+        corners = flat if len(flat) else corners
+    area = 0.5 * np.linalg.norm(np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0))
+    return tuple(_owner(body).id for body in pair), contact, corners, float(area)
+
+
+def _bounds(body, outwards, shift):
+    """Half-spaces (n, offset), n.x <= offset, world frame, that bound what is flat of a body on its side of a contact;
+    [None] where it is not flat there.
+    """
+    import yade
+    shape, state = body.shape, body.state
+    place = np.array(state.pos) + shift
+    turn = np.array(state.ori.toRotationMatrix()).reshape(3, 3)
+    if hasattr(shape, "planes"):
+        planes = np.array(shape.planes, float)
+        if not len(planes) or shape.k == 1:
+            return [None]
+        normals = planes[:, :3] @ turn.T
+        face = (normals @ outwards).argmax()
+        if normals[face] @ outwards < math.cos(FLAT):
+            return [None]
+        return [(n, d + n @ place) for i, (n, d) in enumerate(zip(normals, planes[:, 3])) if i != face]
+    if isinstance(shape, yade.Wall):
+        return []
+    if isinstance(shape, yade.Facet):
+        corners = [place + turn @ np.array(corner) for corner in shape.vertices]
+        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
+        edges = [(corners[i], np.cross(corners[(i + 1) % 3] - corners[i], normal)) for i in range(3)]
+        return [(n / np.linalg.norm(n), n @ at / np.linalg.norm(n)) for at, n in edges]
+    if isinstance(shape, yade.Box):
+        axes = [(sign * turn[:, i], shape.extents[i]) for i in range(3) for sign in (1, -1)]
+        return [(n, d + n @ place) for n, d in axes if abs(n @ outwards) < math.cos(FLAT)]
+    return [None]
+
+
+def _clipped(frame, point, bounds, reach):
+    """The polygon of a plane, through a point and along both rows of the frame, within half-spaces: (n, 3)."""
+    polygon = reach * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    for n, offset in bounds:
+        heights = polygon @ (frame @ n) + (n @ point - offset)
+        kept = []
+        for i, height in enumerate(heights):
+            after = heights[(i + 1) % len(heights)]
+            if height <= 0.0:
+                kept.append(polygon[i])
+            if height * after < 0.0:
+                kept.append(polygon[i] + height / (height - after) * (polygon[(i + 1) % len(heights)] - polygon[i]))
+        polygon = np.array(kept).reshape(-1, 2)
+        if not len(polygon):
+            return polygon
+    size = np.ptp(polygon, axis=0).max()
+    apart = np.linalg.norm(polygon - np.roll(polygon, 1, axis=0), axis=1) > SAME * size
+    polygon = polygon[apart] if apart.any() else polygon[:1]
+    return point + polygon @ frame
