@@ -32,7 +32,7 @@ def plain_text(line):
 
 def as_restructured_text(app, what, name, obj, options, lines):
     """Paragraphs stay paragraphs, what is indented is shown as it is."""
-    given, indented = list(lines), False
+    given, indented = [line.rstrip() for line in lines], False
     lines.clear()
     for before, line in zip(["", *given], given):
         if line.startswith("    ") or (indented and line.startswith(" ")):
