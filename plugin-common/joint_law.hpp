@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// The law of joints: forces and moments of a contact patch, and of a bond. Derived in docs/joints.md.
+// The law of joints: forces and moments of a contact patch, and of a bond. Derived in docs/joint_law.md.
 #pragma once
 
 #include "contact_patch.hpp"

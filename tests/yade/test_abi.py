@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later A YADE that does not fit is refused when the plugin is loaded, with the
-# differences listed. (At build time: test_abi_probe.py.)
+# SPDX-License-Identifier: GPL-3.0-or-later
+# A YADE that does not fit is refused when the plugin is loaded, with the differences listed. (At build time:
+# test_abi_probe.py.)
 import os
 import shutil
 import subprocess

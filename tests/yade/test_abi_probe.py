@@ -1,5 +1,7 @@
-# SPDX-License-Identifier: GPL-3.0-or-later long A YADE that does not fit is refused by the build, with the differences
-# listed: every build compares the true declarations.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# long
+# A YADE that does not fit is refused by the build, with the differences listed: every build compares the true
+# declarations.
 import os
 import re
 import shutil

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Bonds: strength against closed forms, force and torque against differences
-# of the energy, energy, what breaks and what goes on.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Bonds: strength against closed forms, force and torque against differences of the energy, energy, what breaks and what
+# goes on.
 import math
 import os
 import tempfile
@@ -51,7 +52,7 @@ def turned_by(vector):
 
 
 def energy_of(phys, one, other):
-    """The energy of a bond from its attributes, as docs/joints.md says it."""
+    """The energy of a bond from its attributes, as docs/joint_law.md says it."""
     axes1, axes2 = one.ori * phys.bondTurn1, other.ori * phys.bondTurn2
     between = axes1.conjugate() * axes2
     axis, angle = between.toAxisAngle()

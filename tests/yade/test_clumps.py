@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Clumps of bodies that overlap: mass, centre and inertia of their union,
-# against closed forms and an independent sum; their time step.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Clumps of bodies that overlap: mass, centre and inertia of their union, against closed forms and an independent sum;
+# their time step.
 import numpy as np
 import potential_particles
 import yade

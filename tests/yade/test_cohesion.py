@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later YADE's laws that hold bodies together, with interactionDistance and
-# rotations: gaps, tension, moments and their limits against closed forms, momentum.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# YADE's laws that hold bodies together, with interactionDistance and rotations: gaps, tension, moments and their limits
+# against closed forms, momentum.
 import numpy as np
 import potential_particles
 import yade

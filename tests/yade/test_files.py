@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Files on a disk that is full: an error, and what was there before stays.
-# Mesh files in a locale with a decimal comma, which Qt sets; with the marks of Unicode.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Files on a disk that is full: an error, and what was there before stays. Mesh files in a locale with a decimal comma,
+# which Qt sets; with the marks of Unicode.
 import ctypes
 import locale
 import os

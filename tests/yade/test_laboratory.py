@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later What YADE's tools do with potential particles (docs/laboratory.md), check(),
-# and the measures that take the place of YADE's.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# What YADE's tools and laws do with potential particles (docs/laboratory.md, docs/laws.md), check(), and the measures
+# that take the place of YADE's.
 import contextlib
 import io
 import re
@@ -490,12 +491,11 @@ check.equal(O.dt, last, "nothing moves: it stays")
 check.raises(ValueError, lambda: potential_particles.time_stepper(period=0), "no period", "period")
 check.raises(ValueError, lambda: potential_particles.time_stepper(safety=2), "beyond the limit", "safety=2")
 
-# Each tool of the page's tables is measured above, each law in torque_error.
-page, tested = (TOP / "docs/laboratory.md").read_text(), Path(TOP / "tests/yade/test_laboratory.py").read_text()
-tools = [
-    name for row in page.splitlines() if row.startswith("| `") for name in re.findall(r"`(\w+)",
-                                                                                      row.split("|")[1])
-]
+# Each tool of the pages' tables is measured above, each law in torque_error.
+pages = [(TOP / "docs" / name).read_text() for name in ("laboratory.md", "laws.md")]
+tested = Path(TOP / "tests/yade/test_laboratory.py").read_text()
+rows = [row.split("|")[1] for page in pages for row in page.splitlines() if row.startswith("| `")]
+tools = [name for row in rows for name in re.findall(r"`(\w+)", row)]
 check.true(len(tools) >= 12, f"tools in the tables: {tools}")
 for name in tools:
     check.true(name.removeprefix("Law2_ScGeom_MindlinPhys_") in tested, f"{name} is measured here")

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Shapes from files: .stl in both forms, .obj and .gts give the same body;
-# what is no convex surface is refused with its place.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Shapes from files: .stl in both forms, .obj and .gts give the same body; what is no convex surface is refused with its
+# place.
 import os
 import struct
 import tempfile

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Scenes of potential particles among every shape of YADE that they can touch:
-# energy, walls from an STL file, saving, and no body lost.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Scenes of potential particles among every shape of YADE that they can touch: energy, walls from an STL file, saving,
+# and no body lost.
 import os
 import random
 import tempfile

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Scripts of YADE's potential blocks: shapes against closed forms, YADE's
-# potential_utils, stacks that stand, boundaries, and BlockGen against sums.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Scripts of YADE's potential blocks: shapes against closed forms, YADE's potential_utils, stacks that stand,
+# boundaries, and BlockGen against sums.
 import math
 import os
 import tempfile

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Rock masses: blocks and their bodies, files, water, excavation, key blocks
-# against linear programs, closed forms and the simulation.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Rock masses: blocks and their bodies, files, water, excavation, key blocks against linear programs, closed forms and
+# the simulation.
 import os
 import tempfile
 

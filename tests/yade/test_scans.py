@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later Surfaces of many facets as shapes of few planes, voxels as bodies in place,
-# surfaces that are not convex as clumps: volumes and places against those given.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Surfaces of many facets as shapes of few planes, voxels as bodies in place, surfaces that are not convex as clumps:
+# volumes and places against those given.
 import os
 import sys
 import tempfile

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later ConicInteractionLoop adds up forces in the order of ids: whatever the number
-# of threads, all numbers are to the last bit those of YADE's loop in one thread that goes through its sorted list.
+# SPDX-License-Identifier: GPL-3.0-or-later
+# ConicInteractionLoop adds up forces in the order of ids: whatever the number of threads, all numbers are to the last
+# bit those of YADE's loop in one thread that goes through its sorted list.
 import os
 import subprocess
 

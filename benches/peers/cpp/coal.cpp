@@ -1,6 +1,6 @@
-// SPDX-License-Identifier: MIT OR Apache-2.0 Coal (formerly HPP-FCL): GJK, and EPA where the cores meet. Ways: contact,
-// contact-nesterov, distance, distance-nesterov; contact@1e-3 sets both tolerances. Rounded bodies by Coal's swept
-// sphere.
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// Coal (formerly HPP-FCL): GJK, and EPA where the cores meet. Ways: contact, contact-nesterov, distance,
+// distance-nesterov; contact@1e-3 sets both tolerances. Rounded bodies by Coal's swept sphere.
 #include "server.hpp"
 
 #include <coal/collision.h>

@@ -1,7 +1,8 @@
-// SPDX-License-Identifier: MIT OR Apache-2.0 MuJoCo: GJK and EPA of two convex meshes, as mj_geomDistance gives them: a
-// signed distance and the points at its ends. It has no meshes with a rounded surface, and no memory from call to call.
-// The time step of a simulation, which limits itself to bodies that are near and makes several points of faces on each
-// other, is another work, and is not measured.
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// MuJoCo: GJK and EPA of two convex meshes, as mj_geomDistance gives them: a signed distance and the points at its
+// ends. It has no meshes with a rounded surface, and no memory from call to call. The time step of a simulation, which
+// limits itself to bodies that are near and makes several points of faces on each other, is another work, and is not
+// measured.
 #include "server.hpp"
 
 #include <mujoco/mujoco.h>

@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: MIT OR Apache-2.0 What the C++ contestants share: the file of pairs of pairs.py, and the
-// server that times one pass over a group on request; the same protocol as rust/src/server.rs, where it is described.
+// SPDX-License-Identifier: MIT OR Apache-2.0
+// What the C++ contestants share: the file of pairs of pairs.py, and the server that times one pass over a group on
+// request; the same protocol as rust/src/server.rs, where it is described.
 #pragma once
 
 #include <array>
