@@ -248,3 +248,19 @@ fn a_hull_of_too_many_faces_is_told() {
     let error = shapes::hull(&(0..40_000).map(at).collect::<Vec<_>>(), &sharp()).unwrap_err().to_string();
     assert!(error.contains("planes are more than the 65536"), "{error}");
 }
+
+/// Of whole numbers that are moved and rounded, one that lies on an edge makes a face whose area, and so the direction of
+/// its normal, is rounding.
+#[test]
+fn a_face_of_rounding_makes_no_plane() {
+    let at = |corner: [f64; 3]| {
+        [
+            corner[0] - 0.055_334_462_280_617_62,
+            corner[1] - 0.094_659_609_200_441_43,
+            corner[2] + 0.019_603_768_503_472_73,
+        ]
+    };
+    let corners = [[2, 2, 0], [2, 0, 0], [0, 2, 0], [2, 2, 2], [0, 1, 2], [0, 0, 0], [1, 2, 1], [0, 0, 1], [1, 0, 2]];
+    let points: Vec<_> = corners.map(|corner| at(corner.map(f64::from))).into();
+    assert_eq!(shapes::sharp_hull(&points).unwrap().1.len(), 9);
+}

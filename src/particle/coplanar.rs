@@ -13,6 +13,10 @@ use nalgebra::Vector3;
 /// of a binary .stl file are good to 6e-8.
 pub(crate) const COPLANAR: f64 = 1e-6;
 
+/// Area, over the square of the extent, up to which a face has none: its normal is rounding, and may point inwards. The
+/// product of two edges is known to some 12 ε of that square.
+const NO_AREA: f64 = 32.0 * f64::EPSILON;
+
 /// Least cosine between the normals of faces that are one. The normal of a sliver is rounding, but lies between those
 /// of its neighbours, and so within 60° of one of them unless they meet in a sharp edge.
 const LEAST_COSINE: f64 = 0.5;
@@ -49,8 +53,9 @@ pub(crate) struct Distinct {
 /// which the corners are known; faces that lie within it are one, too.
 pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<F>], known: f64) -> Option<Distinct> {
     let around = Around::new(corners.len(), faces);
-    let within = (COPLANAR * extent(corners)).max(known);
-    let mut order: Vec<usize> = (0..faces.len()).filter(|&face| faces[face].area > 0.0).collect();
+    let extent = extent(corners);
+    let (within, least) = ((COPLANAR * extent).max(known), NO_AREA * extent * extent);
+    let mut order: Vec<usize> = (0..faces.len()).filter(|&face| faces[face].area > least).collect();
     order.sort_by(|&i, &j| faces[j].area.total_cmp(&faces[i].area));
     let mut found = Distinct { planes: Vec::new(), plane_of: vec![u32::MAX; faces.len()] };
     let (mut seen, mut open, mut bottom) = (vec![u32::MAX; corners.len()], Vec::new(), 0);
