@@ -92,6 +92,7 @@ check.true(limit_analysis("load", push=(1, 0, 0), dilatant=True).factor >= 0.6 -
 for change, text in (
     (lambda: limit_analysis("falls"), "'falls' is unknown"), (lambda: limit_analysis("load"), "live load"),
     (lambda: limit_analysis(loads={7: ((1, 0, 0), (0, 0, 0))}), "names body 7"),
+    (lambda: limit_analysis(loads={0: ((1, 0, 0), (0, 0, 0))}), "names body 0"),
     (lambda: limit_analysis(push=(1, math.nan, 0)), "push"), (lambda: limit_analysis("strength"), "without friction")):
     block_on()
     check.raises(ValueError, change, f"refused: {text}", text)
@@ -101,6 +102,9 @@ check.raises(ValueError, limit_analysis, "in motion", "body 1 moves at 1 m/s")
 block_on()
 O.bodies[1].state.blockedDOFs = "y"
 check.raises(ValueError, limit_analysis, "blocked in part", "blockedDOFs='y'")
+block_on()
+O.bodies.append(potential_particles.body(shapes.cuboid((1, 1, 1), r=ROUNDING, k=0), position=(0, 0, 9)))
+check.raises(ValueError, limit_analysis, "in the air", "body 2 is free and touches nothing")
 block_on()
 O.bodies[0].state.blockedDOFs = ""
 check.raises(ValueError, limit_analysis, "no support", "no body is held")

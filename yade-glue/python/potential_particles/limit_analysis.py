@@ -71,22 +71,28 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
     with all degrees of freedom blocked are held. Joints (ConicJointMat) have their cohesion and tensile strength as
     they stand: broken ones the residual values, unbonded ones no tension.
 
-    Returns an Equilibrium. ValueError: an unknown question, a scene without contacts, in motion, with bodies that
-    are blocked in part, overlaps beyond the rounding radius, or a factor that is infinite. RuntimeError: the programs
-    did not converge; the scene may stand or fall.
+    Returns an Equilibrium. ValueError: an unknown question, a scene without contacts, in motion or periodic, bodies
+    that are blocked in part or touch nothing, overlaps beyond the rounding radius, or a factor that is infinite.
+    RuntimeError: the programs did not converge; the scene may stand or fall.
     """
     import yade
     if question not in QUESTIONS:
         raise ValueError(f"question={question!r} is unknown: give {', '.join(map(repr, QUESTIONS))}")
+    if yade.O.periodic:
+        raise ValueError("limit analysis has no periodic cells: hold bodies at the borders in their place")
     gravity = _gravity(yade.O.engines)
+    free = {one.id for one in map(_owner, yade.O.bodies) if is_free(one)}
     live = {int(body): load for body, load in (loads or {}).items()}
-    if unknown := [body for body in live if not _exists(yade.O, body)]:
-        raise ValueError(f"loads names body {unknown[0]}: there is no such body")
+    if unknown := [body for body in live if body not in free]:
+        raise ValueError(f"loads names body {unknown[0]}: no body of this id, or clump of such bodies, is free")
     direction = vector((0, 0, 0) if push is None else push, "push")
     found = [_polygon(contact) for contact in yade.O.interactions if contact.isReal]
     if not found:
         raise ValueError("the scene has no contacts: run a step, so that they are found")
-    ids = sorted({one.id for one in map(_owner, yade.O.bodies) if is_free(one)} | {one for f in found for one in f[0]})
+    touched = {one for pair, *_ in found for one in pair}
+    if alone := sorted(free - touched):
+        raise ValueError(f"body {alone[0]} is free and touches nothing: hold it, take it out, or close a gap")
+    ids = sorted(touched)
     place = {body: index for index, body in enumerate(ids)}
     bodies = (_Body * len(ids))(*(_body(yade.O, one, gravity, direction, live.get(one)) for one in ids))
     contacts = (_Contact * len(found))()
@@ -103,10 +109,6 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
                        corners, np.repeat(np.arange(len(found)), [len(one[2]) for one in found]), forces,
                        {one: (velocities[i, :3], velocities[i, 3:]) for one, i in place.items()}, result.unbalanced,
                        result.excess, result.programs)
-
-
-def _exists(scene, body):
-    return 0 <= body < len(scene.bodies) and scene.bodies[body] is not None
 
 
 def _owner(body):
@@ -175,10 +177,7 @@ def _polygon(contact):
     if radii and overlap > sum(radii):
         raise ValueError(f"bodies {contact.id1} and {contact.id2} overlap by {overlap:.3g}, more than the rounding radii "
                          "together: start them apart, or take stiffer contacts")
-    # Contact points of a pair in a periodic cell are by the first body.
-    shift = np.zeros(3) if not yade.O.periodic else np.array(yade.O.cell.hSize * contact.cellDist)
-    bounds = [rows for body, sense, away in zip(pair, (1, -1), (0 * shift, shift))
-              for rows in _bounds(body, sense * normal, away)]
+    bounds = [row for body, sense in zip(pair, (1, -1)) for row in _bounds(body, sense * normal)]
     corners = np.array([point])
     if all(one is not None for one in bounds):
         across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
@@ -191,13 +190,13 @@ def _polygon(contact):
     return tuple(_owner(body).id for body in pair), contact, corners, float(area)
 
 
-def _bounds(body, outwards, shift):
+def _bounds(body, outwards):
     """Half-spaces (n, offset), n.x <= offset, world frame, that bound what is flat of a body on its side of a contact;
     [None] where it is not flat there.
     """
     import yade
     shape, state = body.shape, body.state
-    place = np.array(state.pos) + shift
+    place = np.array(state.pos)
     turn = np.array(state.ori.toRotationMatrix()).reshape(3, 3)
     if hasattr(shape, "planes"):
         planes = np.array(shape.planes, float)
