@@ -9,8 +9,8 @@ use crate::records::contact_type;
 use crate::settings::{PySettings, or_default};
 use numpy::PyArray1;
 use potential_particles::{ClosestPoint, Contact, Kind, PairState, Role, Section};
-use pyo3::prelude::*;
 use pyo3::PyClass;
+use pyo3::prelude::*;
 use pyo3::pyclass::boolean_struct::True;
 use pyo3::types::{PyBytes, PyCFunction, PyDict, PyTuple};
 

@@ -7,6 +7,7 @@ use numpy::{PyArray1, PyArray2};
 use potential_particles::equilibrium::{self as library, Body, Contact, Equilibrium, EquilibriumError, Flow};
 use potential_particles::equilibrium::{JointStrength, Load, Scene};
 use potential_particles::nalgebra::Vector3;
+use potential_particles::rock::{FaceOf, Interface, RockMass};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::collections::HashSet;
@@ -26,6 +27,38 @@ fn raised(error: EquilibriumError) -> PyErr {
     }
 }
 
+/// One number for all joints, or one for each.
+#[derive(FromPyObject)]
+enum OfJoints {
+    All(f64),
+    Each(Vec<f64>),
+}
+
+impl OfJoints {
+    fn check(&self, name: &str, mass: &RockMass) -> PyResult<()> {
+        let Self::Each(values) = self else { return Ok(()) };
+        if values.len() != mass.joints {
+            let said =
+                format!("{name} has {} numbers for {} joints: give one for each, or one", values.len(), mass.joints);
+            return Err(refused(said));
+        }
+        let mut faces = mass.blocks.iter().flat_map(|block| &block.faces);
+        if faces.any(|face| matches!(face.of, FaceOf::Region { .. })) {
+            return Err(refused(format!("{name} is a sequence, and regions divide blocks, too: give one number")));
+        }
+        Ok(())
+    }
+
+    /// At a face between blocks, after check().
+    fn at(&self, of: FaceOf) -> f64 {
+        match (self, of) {
+            (Self::All(value), _) => *value,
+            (Self::Each(values), FaceOf::Joint(joint)) => values[joint],
+            (Self::Each(_), _) => f64::NAN,
+        }
+    }
+}
+
 fn flow(dilatant: bool) -> Flow {
     if dilatant { Flow::Associated } else { Flow::NonDilatant }
 }
@@ -38,16 +71,16 @@ impl PyScene {
     }
 
     /// The blocks of a rock mass under unit_weight (3,), force over volume. held: indices of blocks. friction = tan
-    /// phi, cohesion, tension: of all joints.
+    /// phi, cohesion, tension: of all joints, or sequences with a number for each joint of the slice.
     #[staticmethod]
-    #[pyo3(signature = (mass, unit_weight, *, held, friction, cohesion=0.0, tension=0.0))]
+    #[pyo3(signature = (mass, unit_weight, *, held, friction, cohesion=OfJoints::All(0.0), tension=OfJoints::All(0.0)))]
     fn of_rock(
         mass: &PyRockMass,
         unit_weight: &Bound<'_, PyAny>,
         held: Vec<usize>,
-        friction: f64,
-        cohesion: f64,
-        tension: f64,
+        friction: OfJoints,
+        cohesion: OfJoints,
+        tension: OfJoints,
     ) -> PyResult<Self> {
         let weight = Vector3::from(vector::<3>(unit_weight, "unit_weight")?);
         let count = mass.mass().blocks.len();
@@ -55,8 +88,15 @@ impl PyScene {
             return Err(refused(format!("held names block {block} of a rock mass of {count}")));
         }
         let held: HashSet<usize> = held.into_iter().collect();
-        let strength = JointStrength { friction, cohesion, tension };
-        Ok(Self(Scene::of_rock(mass.mass(), weight, |block| held.contains(&block), |_| strength)))
+        for (name, given) in [("friction", &friction), ("cohesion", &cohesion), ("tension", &tension)] {
+            given.check(name, mass.mass())?;
+        }
+        let strength = |interface: &Interface| {
+            let [block, face] = interface.faces[0];
+            let of = mass.mass().blocks[block].faces[face].of;
+            JointStrength { friction: friction.at(of), cohesion: cohesion.at(of), tension: tension.at(of) }
+        };
+        Ok(Self(Scene::of_rock(mass.mass(), weight, |block| held.contains(&block), strength)))
     }
 
     /// Adds a body and returns its index. force and torque about its centre are there; live ones are multiplied by the

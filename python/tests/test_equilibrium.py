@@ -53,5 +53,12 @@ class Rock(unittest.TestCase):
         self.assertAlmostEqual(scene.strength_factor().factor, 0.8 / math.tan(math.radians(25)), delta=2e-6)
         with self.assertRaisesRegex(ValueError, "held names block 9 of a rock mass of 4"):
             equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=[9], friction=0.8)
+        # Strength by joint: that of the joint on which it slides counts.
+        for friction, expected in (((0.8, 0.1), 0.8), ((0.5, 9.0), 0.5)):
+            scene = equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=held, friction=friction)
+            found = scene.strength_factor().factor
+            self.assertAlmostEqual(found, expected / math.tan(math.radians(25)), delta=2e-6)
+        with self.assertRaisesRegex(ValueError, "friction has 3 numbers for 2 joints"):
+            equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=held, friction=(0.5, 0.5, 0.5))
         scene.push((1, 0, 0))
         self.assertGreater(scene.load_factor().factor, 0.0)
