@@ -249,8 +249,8 @@ fn a_hull_of_too_many_faces_is_told() {
     assert!(error.contains("planes are more than the 65536"), "{error}");
 }
 
-/// Of whole numbers that are moved and rounded, one that lies on an edge makes a face whose area, and so the direction of
-/// its normal, is rounding.
+/// Of whole numbers that are moved and rounded, one that lies on an edge makes a face whose area, and so the direction
+/// of its normal, is rounding.
 #[test]
 fn a_face_of_rounding_makes_no_plane() {
     let at = |corner: [f64; 3]| {

@@ -135,8 +135,8 @@ pub(super) fn solve(
 
 impl Program {
     /// Appends the row right + Σ value x, which is to lie in the next cone.
-    fn row(&mut self, entries: impl Iterator<Item = (usize, f64)>, right: f64) {
-        for (column, value) in entries.filter(|(_, value)| *value != 0.0) {
+    fn row(&mut self, entries: impl IntoIterator<Item = (usize, f64)>, right: f64) {
+        for (column, value) in entries.into_iter().filter(|(_, value)| *value != 0.0) {
             self.rows.push(self.right.len());
             self.columns.push(column);
             self.values.push(-value);
@@ -170,8 +170,12 @@ impl Program {
         // Columns of q in the order of the frame: ε q is p, so that f = f̄ + q.
         let q = near.map(|(weight, force)| force.map(|part| (self.pulled(weight, part), weight)));
         let along = |axis: usize, factor: f64| {
-            let slack = q.map(|columns| (columns[axis].0, factor * columns[axis].1));
-            corner.relative(axis).map(move |(column, value)| (column, factor * value)).chain(slack)
+            let of_bodies = corner.relative(axis).map(|(column, value)| (column, factor * value));
+            let mut entries: Vec<(usize, f64)> = of_bodies.collect();
+            if let Some(columns) = q {
+                entries.push((columns[axis].0, factor * columns[axis].1));
+            }
+            entries
         };
         let first = self.right.len();
         if slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH {
@@ -191,11 +195,13 @@ impl Program {
         let y = self.unknown(base - tension * slope);
         grows(y);
         corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
-        self.row([(y, 1.0)].into_iter(), 0.0);
+        self.row([(y, 1.0)], 0.0);
         self.row(along(1, 1.0), 0.0);
         self.row(along(2, 1.0), 0.0);
         self.cones.push(SupportedConeT::SecondOrderConeT(3));
-        self.row(along(0, 1.0).chain([(y, -slope)]), 0.0);
+        let mut opening = along(0, 1.0);
+        opening.push((y, -slope));
+        self.row(opening, 0.0);
         self.cones.push(SupportedConeT::NonnegativeConeT(1));
         self.places.push(Rows::Cut(first, first + 3));
     }
