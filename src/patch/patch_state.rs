@@ -275,7 +275,7 @@ impl PatchState {
 }
 
 impl Motion {
-    /// Of a patch without a depth, none is: 0 over 0 is not a number.
+    /// Beside a depth of 0 no motion is: the quotient is infinite, or not a number.
     fn is_small(&self, tolerance: f64) -> bool {
         self.size <= FARTHEST * tolerance.sqrt() && self.change <= OF_SHAPE * tolerance
     }

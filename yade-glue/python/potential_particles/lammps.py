@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 from . import lammps_joints, lammps_limits
 from .arguments import number, positive
-from .bodies import is_free
+from .bodies import is_free, lasting
 from .files import written
 from .joints import given_by_engines
 
@@ -105,7 +105,7 @@ def to_lammps(stem, normal_stiffness=None, shear_stiffness=None, friction=None, 
         raise ValueError("there is no potential particle in the scene")
     paths = [stem.with_name(stem.name + end) for end in (".shapes", ".data", ".lmp")]
     _write_shapes(paths[0], kinds)
-    loaded = any(lammps_limits.lasting(yade.O.forces.permF, body).norm() > 0 for _, body in rows)
+    loaded = any(lasting(yade.O.forces.permF, body).norm() > 0 for _, body in rows)
     boundary = _write_data(paths[1], rows, len(kinds), margin, loaded)
     boundaries = [(group[0][0], name, " ".join(text for _, text in group) + motion)
                   for name, motion, group in _by_velocity("walls", walls)]
@@ -253,7 +253,7 @@ def _write_data(path, rows, types, margin, loaded):
         file.write("\norientation\n\n" + "".join(f"{i} {_text([state.ori[n] for n in (3, 0, 1, 2)])}\n"
                                                  for i, state in enumerate(states, 1)))
         if loaded:
-            file.write("\nloads\n\n" + "".join(f"{i} {_text(lammps_limits.lasting(yade.O.forces.permF, body))}\n"
+            file.write("\nloads\n\n" + "".join(f"{i} {_text(lasting(yade.O.forces.permF, body))}\n"
                                                for i, (_, body) in enumerate(rows, 1)))
     return boundary
 

@@ -4,22 +4,12 @@ can see to it.
 """
 import warnings
 
-from .bodies import is_free
+from .bodies import is_free, lasting
 
 
 def warn(text):
     from .check import SceneWarning
     warnings.warn_explicit(f"potential_particles: to_lammps: {text}", SceneWarning, "potential_particles", 0)
-
-
-def lasting(of, body):
-    """What O.forces.permF or permT has of a body."""
-    import yade
-    if not yade.O.forces.getPermForceUsed():
-        return yade.Vector3.Zero
-    # YADE reads beyond its table for bodies that have none, until forces are summed up.
-    yade.O.forces.f(len(yade.O.bodies) - 1, True)
-    return of(body.id)
 
 
 def require_motion(body, moves_freely):

@@ -10,8 +10,7 @@ import numpy as np
 
 from . import library
 from .arguments import vector
-from .bodies import is_free
-from .lammps_limits import lasting
+from .bodies import is_free, lasting
 
 QUESTIONS = {"stands": 0, "load": 1, "strength": 2}
 # A face touches where its normal is within this angle of that of the contact, radians.
@@ -67,9 +66,9 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
     in this direction, as an earthquake in shares of gravity. loads: {id: (force, torque)}, other live loads, torque
     about the centre. dilatant=True: joints open as they slip, for a bound by one program.
 
-    Dead loads are weights (NewtonIntegrator.gravity) and lasting forces (O.forces.addF(..., permanent=True)). Bodies
-    with all degrees of freedom blocked are held. Joints (ConicJointMat) have their cohesion and tensile strength as
-    they stand: broken ones the residual values, unbonded ones no tension.
+    Dead loads are weights (NewtonIntegrator.gravity) and lasting forces (O.forces.setPermF). Bodies with all
+    degrees of freedom blocked are held. Joints (ConicJointMat) have their cohesion and tensile strength as they stand:
+    broken ones the residual values, unbonded ones no tension.
 
     Returns an Equilibrium. ValueError: an unknown question, a scene without contacts, in motion or periodic, bodies
     that are blocked in part or touch nothing, overlaps beyond the rounding radius, or a factor that is infinite.
