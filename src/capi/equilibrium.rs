@@ -3,6 +3,10 @@
 use super::fence::{array, output, outputs};
 use super::message::{Refusal, explained};
 use super::status::*;
+#[cfg(feature = "cone-program")]
+use crate::equilibrium::{
+    Body, Contact, Equilibrium, EquilibriumError, Flow, Load, Scene, Velocity, load_factor, stands, strength_factor,
+};
 use std::ffi::c_char;
 
 /// Question of pp_equilibrium: do forces exist that hold all bodies?
@@ -123,11 +127,6 @@ pub unsafe extern "C" fn pp_equilibrium(
 
 /// The result, rows of forces and of velocities.
 type Found = (pp_equilibrium_result, Vec<[f64; 3]>, Vec<[f64; 6]>);
-
-#[cfg(feature = "cone-program")]
-use crate::equilibrium::{
-    Body, Contact, Equilibrium, EquilibriumError, Flow, Load, Scene, Velocity, load_factor, stands, strength_factor,
-};
 
 #[cfg(feature = "cone-program")]
 fn answer(
