@@ -108,6 +108,12 @@ pub(super) struct Cell {
 /// Most steps of a search for the rim.
 const RIM_STEPS: usize = 50;
 
+/// A step back of this part of the size of the bodies is rounding.
+const TINY: f64 = 1e-13;
+
+/// Distance of two points of a patch over the radius about the start of the walk, at most.
+const FARTHEST: f64 = 2.0;
+
 /// A rim beyond so many times the size of the bodies is none.
 const FAR: f64 = 100.0;
 
@@ -181,10 +187,12 @@ impl Cell {
         before
     }
 
-    /// The first h > −`tiny` where a plane goes on or off, and the height there.
+    /// The first h > 0, but for rounding, where a plane goes on or off, and the height there; no point of the patch is
+    /// farther than `radius` from the start of the walk.
     #[inline(always)]
-    pub fn crossing(&self, plane: &RayPlane, tiny: f64) -> Option<(f64, f64)> {
+    pub fn crossing(&self, plane: &RayPlane, radius: f64) -> Option<(f64, f64)> {
         let RayPlane { excess: e, along, up, active, .. } = *plane;
+        let tiny = TINY * radius;
         if self.is_flat {
             let rate = along + up * self.flat_incline;
             let h = -e / rate;
@@ -193,7 +201,9 @@ impl Cell {
         }
         let d = &self.d;
         let square = along * along + up * up;
-        if !(square > 0.0) {
+        // Farther off than the bodies are large nothing is met: of a plane across the half-plane but for rounding what
+        // follows would say anything.
+        if !(e * e <= FARTHEST * FARTHEST * radius * radius * square) {
             return None;
         }
         // The line of the plane: its point nearest to the start, and t along (up, −along).

@@ -2,21 +2,21 @@
 //! triangles.
 
 use super::curve::Trouble;
+use super::faces::{Corner, Faces};
 use super::form::Form;
 use super::network::{Drawing, MOST_PLANES, Network};
 use super::pieces::Estimate;
-use super::ray::{Node, RIM, Walker};
-use super::rim::parabola;
+use super::ray::{Node, Walker};
 use super::smoothness::norm;
 use super::triangle_rule::{CurvedTriangle, INTEGRALS, Integrals, POINTS, Rule, WHOLE, quarters};
+use super::triangulation::cut;
 
 /// Buffers.
 #[derive(Debug, Default)]
 pub(super) struct CellScratch {
     network: Network,
-    /// The sides of each cell: its active planes, and the side.
-    sides: Vec<(u128, u32)>,
-    outline: Vec<Corner>,
+    faces: Faces,
+    ears: Vec<Corner>,
     triangles: Vec<(CurvedTriangle, Form)>,
     parts: Vec<Part>,
     /// The least S.
@@ -25,13 +25,6 @@ pub(super) struct CellScratch {
     is_off: bool,
     /// [`POINTS`] for each part, of which it may use less.
     nodes: Vec<Node>,
-}
-
-/// A corner of a cell, and the middle of the side to the next one.
-#[derive(Clone, Copy, Debug)]
-struct Corner {
-    at: [f64; 2],
-    middle: [f64; 2],
 }
 
 /// A part of a triangle: its corners in barycentric coordinates, and its integrals.
@@ -101,68 +94,37 @@ pub(super) fn cells(
 }
 
 impl CellScratch {
-    /// Cuts all cells within the edges into triangles; `None` where the sides of one make no outline.
+    /// Cuts all cells within the edges into triangles; `None` where the network has no cells.
     fn triangulate(&mut self, walker: &Walker) -> Option<()> {
-        self.sides.clear();
-        self.triangles.clear();
-        for (i, side) in self.network.sides.iter().enumerate() {
-            self.sides.push((side.active, i as u32));
-            if side.plane != RIM {
-                self.sides.push((side.active | 1 << side.plane, i as u32));
+        let Self { network, faces, ears, triangles, .. } = self;
+        triangles.clear();
+        let field = &*walker.field;
+        let (edges, drawn, at_origin) = (network.edges, network.drawn, network.at_origin);
+        let mut height = 0.0;
+        faces.visit(network, |outline| {
+            let first = triangles.len();
+            let mut widest = ([0.0; 2], 0.0);
+            // The form is known once a point inside is.
+            let form = Form::default();
+            cut(outline, ears, |triangle| {
+                let (middle, size) = triangle.middle();
+                if size > widest.1 {
+                    widest = (middle, size);
+                }
+                triangles.push((triangle, form));
+            })?;
+            let [u, v] = widest.0;
+            height = if field.b.is_some() { field.height(u, v, height)? } else { 0.0 };
+            // A plane whose curve does not count is everywhere as at the origin.
+            let active = field.look(&[u, v, height]).active & drawn | at_origin & !drawn;
+            if active & edges != 0 {
+                triangles.truncate(first);
+                return Some(());
             }
-        }
-        self.sides.sort_unstable();
-        let mut from = 0;
-        while from < self.sides.len() {
-            let active = self.sides[from].0;
-            let count = self.sides[from..].iter().take_while(|(other, _)| *other == active).count();
-            if active & self.network.edges != 0 {
-                from += count;
-                continue;
-            }
-            self.trace(from, from + count)?;
-            let form = Form::new(walker.field, active);
-            let triangles = &mut self.triangles;
-            cut(&self.outline, |triangle| triangles.push((triangle, form)))?;
-            from += count;
-        }
-        Some(())
-    }
-
-    /// The outline of the cell with these sides, counter-clockwise.
-    fn trace(&mut self, from: usize, to: usize) -> Option<()> {
-        let Network { vertices, sides, .. } = &self.network;
-        let group = &mut self.sides[from..to];
-        self.outline.clear();
-        let first = &sides[group[0].1 as usize];
-        let (start, mut at) = (first.ends[0], first.ends[0]);
-        for done in 0..group.len() {
-            let next = (done..group.len()).find(|i| sides[group[*i].1 as usize].ends.contains(&at))?;
-            group.swap(done, next);
-            let side = &sides[group[done].1 as usize];
-            let [u, v, _] = vertices[at as usize].x;
-            self.outline.push(Corner { at: [u, v], middle: side.middle });
-            at = if side.ends[0] == at { side.ends[1] } else { side.ends[0] };
-            if at == start && done + 1 < group.len() {
-                return None;
-            }
-        }
-        if at != start {
-            return None;
-        }
-        let knots = self.outline.iter().flat_map(|corner| [corner.at, corner.middle]);
-        let after = self.outline.iter().flat_map(|corner| [corner.at, corner.middle]).cycle().skip(1);
-        let area: f64 = knots.zip(after).map(|(a, b)| a[0] * b[1] - a[1] * b[0]).sum();
-        if area < 0.0 {
-            self.outline.reverse();
-            let count = self.outline.len();
-            // The middle of a side stands with the corner before it.
-            let last = self.outline[0].middle;
-            for i in 0..count {
-                self.outline[i].middle = if i + 1 < count { self.outline[i + 1].middle } else { last };
-            }
-        }
-        Some(())
+            let form = Form::new(field, active);
+            triangles[first..].iter_mut().for_each(|triangle| triangle.1 = form);
+            Some(())
+        })
     }
 
     /// Integrates over all triangles, in parts where one rule does not do.
@@ -250,45 +212,4 @@ impl CellScratch {
         }
         self.parts.get(place)
     }
-}
-
-/// Cuts the outline of a cell into triangles: from one of its corners, or from its middle; `None` where neither will
-/// do.
-fn cut(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
-    let count = outline.len();
-    let corner = |i: usize| &outline[i % count];
-    if count == 2 {
-        return lens(outline, give);
-    }
-    for apex in 0..count {
-        let triangle = |i: usize| {
-            let [a, b, c] = [corner(apex), corner(apex + i), corner(apex + i + 1)];
-            let first = (i == 1).then_some(a.middle);
-            let last = (i + 2 == count).then_some(c.middle);
-            CurvedTriangle::new([a.at, b.at, c.at], [first, Some(b.middle), last])
-        };
-        if (1..count - 1).all(|i| triangle(i).is_regular()) {
-            (1..count - 1).for_each(|i| give(triangle(i)));
-            return Some(());
-        }
-    }
-    let middle = [0, 1].map(|c| outline.iter().map(|k| k.at[c] + k.middle[c]).sum::<f64>() / (2 * count) as f64);
-    let triangle =
-        |i: usize| CurvedTriangle::new([middle, corner(i).at, corner(i + 1).at], [None, Some(corner(i).middle), None]);
-    if (0..count).all(|i| triangle(i).is_regular()) {
-        (0..count).for_each(|i| give(triangle(i)));
-        return Some(());
-    }
-    None
-}
-
-/// A cell with two corners, in two triangles on either side of the line between the middles of its sides.
-fn lens(outline: &[Corner], mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
-    let [a, b] = [outline[0], outline[1]];
-    let quarter = |from: &Corner, to: &Corner, t: f64| Some(parabola([&from.at, &from.middle, &to.at], t));
-    let halves = [
-        CurvedTriangle::new([a.at, a.middle, b.middle], [quarter(&a, &b, 0.25), None, quarter(&b, &a, 0.75)]),
-        CurvedTriangle::new([b.at, b.middle, a.middle], [quarter(&b, &a, 0.25), None, quarter(&a, &b, 0.75)]),
-    ];
-    halves.iter().all(CurvedTriangle::is_regular).then(|| halves.into_iter().for_each(&mut give))
 }

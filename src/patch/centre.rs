@@ -23,11 +23,10 @@ pub(super) fn flattest_axis(field: &Field) -> [f64; 2] {
 }
 
 /// A point of the patch in its middle: from a point of it to the middle of the load on the line along an axis, and from
-/// there on that across. And ∫ p ρ dρ over the four rays from there along both, roughly, and how long the patch is on
-/// both.
-pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([f64; 3], f64, [f64; 2]) {
-    let (mut at, mut rough, mut lengths) = (start, 0.0, [0.0; 2]);
-    for (direction, whole) in [axis, [-axis[1], axis[0]]].into_iter().zip(&mut lengths) {
+/// there on that across. And ∫ p ρ dρ over the four rays from there along both, roughly.
+pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([f64; 3], f64) {
+    let (mut at, mut rough) = (start, 0.0);
+    for direction in [axis, [-axis[1], axis[0]]] {
         let (mut load, mut moment, mut length) = (0.0, 0.0, 0.0);
         walker.nodes.clear();
         for sign in [1.0, -1.0] {
@@ -41,7 +40,6 @@ pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([
             }
         }
         rough += 0.25 * load * length;
-        *whole = length;
         if load > 0.0 {
             let nearest = walker.nodes.iter().min_by(|a, b| {
                 let off = |x: &[f64; 3]| {
@@ -54,7 +52,7 @@ pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([
             at = on_patch(walker.field, u, v, nearest.map_or(at[2], |node| node.x[2])).unwrap_or(at);
         }
     }
-    (at, rough, lengths)
+    (at, rough)
 }
 
 /// The point of the patch above a point of the plane of the frame.

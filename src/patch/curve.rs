@@ -1,22 +1,28 @@
 //! The curve on the patch where a plane goes on, walked over in the plane itself from rim to rim.
 
 use super::cell::Cell;
-use super::field::Owner;
-use super::half_plane::HalfPlane;
-use super::ray::{CellEnd, RIM, Walker};
+use super::field::{Owner, dot};
+use super::half_plane::{HalfPlane, Tilt};
+use super::ray::{CellEnd, GENTLE, RIM, Walker};
 
 /// Most cells on the way to the rim.
 const MOST_CELLS: usize = 64;
 
+/// Way over the size of the bodies within which a plane that goes on and off does neither.
+const COINCIDENT: f64 = 1e-9;
+
+/// In the place of the number of a plane: the axes of the walk are turned there.
+pub(super) const ONWARDS: u32 = u32::MAX - 1;
+
 /// The part of a walk in one cell.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Stretch {
-    /// Number of the plane that goes on or off at its end, or [`RIM`].
+    /// Number of the plane that goes on or off at its end, [`RIM`], or [`ONWARDS`].
     pub id: u32,
     pub end: [f64; 3],
     pub middle: [f64; 3],
-    /// The active planes, a bit each, without that of the curve.
-    pub active: u128,
+    /// Whether it lies beyond an edge of the triangle.
+    pub is_beyond: bool,
 }
 
 /// Why a walk did not get to the rim.
@@ -29,15 +35,17 @@ pub(super) enum Trouble {
 }
 
 impl Walker<'_, '_, '_> {
-    /// Walks to the rim in a half-plane, which is that of the plane `own` or upright; the first cell and the way
-    /// through it.
+    /// Walks to the rim in a half-plane, which is that of the plane `own` or upright; the first cell and the way through
+    /// it, if the axes were not turned there.
+    ///
+    /// An upright walk that would have to be turned is lost: the patch turns back.
     pub fn walk_to_rim(
         &mut self,
-        half_plane: &HalfPlane,
+        mut half_plane: HalfPlane,
         own: Option<usize>,
         stretches: &mut Vec<Stretch>,
-    ) -> Result<(Cell, f64), Trouble> {
-        self.set_out(half_plane);
+    ) -> Result<Option<(Cell, f64)>, Trouble> {
+        self.set_out(&half_plane);
         // Edges are planes without weight here.
         let edges = self.planes.iter_mut().filter(|plane| plane.owner == Owner::Edge);
         edges.for_each(|edge| edge.active = edge.at_origin > 0.0);
@@ -46,31 +54,61 @@ impl Walker<'_, '_, '_> {
             (plane.at_origin, plane.along, plane.up, plane.active) = (0.0, 0.0, 0.0, false);
         }
         let (mut rho, mut zeta) = (0.0, 0.0);
-        let mut first = None;
+        let (mut first, mut is_first) = (None, true);
+        let (mut last, mut since) = (usize::MAX, 0.0);
         for _ in 0..MOST_CELLS {
-            let cell = self.cell(half_plane, rho, zeta);
+            let cell = self.cell(&half_plane, rho, zeta);
             if !(cell.s.v < 1.0) {
                 return Err(Trouble::Lost);
             }
-            let CellEnd { h, k, next, is_folded } = self.end_of(&cell);
-            let middle = cell.height(0.5 * h).filter(|_| !is_folded);
-            let Some((middle, _)) = middle else { return Err(Trouble::Lost) };
+            let CellEnd { mut h, mut k, next, is_folded } = self.end_of(&cell);
+            if is_folded {
+                own.ok_or(Trouble::Lost)?;
+                let incline = cell.incline(0.0, 0.0);
+                if incline.abs() > GENTLE {
+                    let (_, by) = Tilt::UPRIGHT.onwards(incline);
+                    half_plane = half_plane.turned(by);
+                    [rho, zeta] = [by[0] * rho + by[1] * zeta, by[0] * zeta - by[1] * rho];
+                    self.turn(by);
+                    is_first = false;
+                    continue;
+                }
+                (h, k) = cell.half_turned(h);
+                if !(h > 0.0) {
+                    return Err(Trouble::Lost);
+                }
+            }
+            let Some((middle, _)) = cell.height(0.5 * h) else { return Err(Trouble::Lost) };
             let end = half_plane.at(rho + h, zeta + k);
             let away = end.iter().map(|c| c * c).sum::<f64>().sqrt();
             if !(away <= self.field.loaded()) {
                 return Err(Trouble::Far(away));
             }
-            let active = self.planes.iter().enumerate().filter(|(_, plane)| plane.active);
+            let id = if is_folded { ONWARDS } else { next.map_or(RIM, |place| place as u32) };
             stretches.push(Stretch {
-                id: next.map_or(RIM, |place| place as u32),
+                id,
                 end,
                 middle: half_plane.at(rho + 0.5 * h, zeta + middle),
-                active: active.fold(0, |bits, (place, _)| bits | 1 << place),
+                is_beyond: self.planes.iter().any(|plane| plane.active && plane.owner == Owner::Edge),
             });
-            let first = *first.get_or_insert((cell, h));
-            let Some(place) = next else { return Ok(first) };
-            self.planes[place].active = !self.planes[place].active;
-            (rho, zeta) = (rho + h, zeta + k);
+            if is_first {
+                first = Some((cell, h));
+                is_first = false;
+            }
+            (rho, zeta, since) = (rho + h, zeta + k, since + h);
+            match next {
+                _ if is_folded => (),
+                Some(place) if place == last && since <= COINCIDENT * self.field.radius() => {
+                    // It goes on and off at once, as one whose curve coincides with this one.
+                    let plane = &mut self.planes[place];
+                    (plane.at_origin, plane.along, plane.up, plane.active) = (0.0, 0.0, 0.0, false);
+                }
+                Some(place) => {
+                    self.planes[place].active = !self.planes[place].active;
+                    (last, since) = (place, 0.0);
+                }
+                None => return Ok(first),
+            }
         }
         Err(Trouble::Lost)
     }
@@ -87,7 +125,12 @@ impl Walker<'_, '_, '_> {
         backwards.clear();
         forwards.clear();
         let half_plane = HalfPlane::within(through, &self.field.planes[own].normal).ok_or(Trouble::Lost)?;
-        let (_, back) = self.walk_to_rim(&half_plane.backwards(), Some(own), backwards)?;
+        // Along the curve, and upwards as D rises.
+        let (_, rises) = self.field.look(&through).difference(self.field.b.is_some());
+        let [along, up] = [dot(&rises, &half_plane.along), dot(&rises, &half_plane.up)];
+        let length = (along * along + up * up).sqrt();
+        let half_plane = half_plane.turned([up / length, -along / length]);
+        let back = self.walk_to_rim(half_plane.backwards(), Some(own), backwards)?;
         let count = backwards.len();
         // Each stretch now ends where it began.
         for i in (0..count).rev() {
@@ -95,7 +138,13 @@ impl Walker<'_, '_, '_> {
             let from = backwards.get(i + 1).copied().unwrap_or(backwards[i]);
             forwards.push(Stretch { id, end, ..from });
         }
-        let (cell, ahead) = self.walk_to_rim(&half_plane, Some(own), forwards)?;
+        let first = backwards[0];
+        let ahead = self.walk_to_rim(half_plane, Some(own), forwards)?;
+        let (Some((_, back)), Some((cell, ahead))) = (back, ahead) else {
+            // The point is one of the curve's.
+            forwards.insert(count, Stretch { id: ONWARDS, end: through, ..first });
+            return Ok(());
+        };
         let h = 0.5 * (ahead - back);
         let (height, _) = cell.height(h).ok_or(Trouble::Lost)?;
         forwards[count].middle = half_plane.at(h, height);

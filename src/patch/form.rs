@@ -38,7 +38,7 @@ impl Quadratic {
 }
 
 /// S_A and S_A − S_B where the active planes do not change; without B the patch lies in the plane.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Form {
     s: Quadratic,
     d: Option<Quadratic>,

@@ -5,7 +5,6 @@ use super::cells::{CellScratch, cells};
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
-use super::oval::oval;
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
@@ -181,13 +180,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
         8
     };
     let start = inwards(&mut fan.walker, start, task.inside);
-    let (centre, rough, lengths) = middle(&mut fan.walker, start, axis);
-    if !task.settings.with_energy && fan.tolerance >= FINEST_OF_PIECES {
-        fan.walker.order = order;
-        if let Some(estimate) = oval(&mut fan.walker, centre, (axis, lengths), rough, fan.tolerance, points) {
-            return Outcome::of(&estimate, points);
-        }
-    }
+    let (centre, rough) = middle(&mut fan.walker, start, axis);
     fan.centre = centre;
     let mut integral = Integral::default();
     for starts in 0.. {

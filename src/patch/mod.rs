@@ -16,8 +16,10 @@
 //! | `curve` | the walk over the curve where a plane goes on |
 //! | `rim` | points and arcs of the rim |
 //! | `network` | curves and rim, and where they meet |
+//! | `faces` | the cells that they enclose |
 //! | `form` | the potentials of a cell |
 //! | `triangle_rule` | quadrature over a curved triangle |
+//! | `triangulation` | cells cut into such triangles |
 //! | `cells` | the patch in cells |
 //! | `chart` | coordinates in which the patch is explicit |
 //! | `polygon` | its flat part |
@@ -27,7 +29,6 @@
 //! | `piece` | one of these with its rule |
 //! | `zones` | where they lie |
 //! | `pieces` | the patch in such parts |
-//! | `oval` | rays at equal steps around a smooth rim |
 //! | `centre` | where the rays start |
 //! | `smoothness` | how far off a rule over a sector is |
 //! | `fan` | sectors of rays, refined |
@@ -48,13 +49,13 @@ mod contact;
 mod curve;
 mod disc;
 mod energy;
+mod faces;
 mod fan;
 mod field;
 mod form;
 mod half_plane;
 mod integration;
 mod network;
-mod oval;
 #[allow(clippy::module_inception)]
 mod patch;
 mod patch_state;
@@ -73,6 +74,7 @@ mod smoothness;
 mod stiffness;
 mod strip;
 mod triangle_rule;
+mod triangulation;
 mod zones;
 
 pub use contact::{patch_of_contact, patch_on_plane, patch_on_triangle};

@@ -1,10 +1,10 @@
 //! The patch as a network: the curves on which planes go on, the rim around them, and the places where they meet.
 
-use super::curve::{Stretch, Trouble};
+use super::curve::{ONWARDS, Stretch, Trouble};
 use super::field::{Field, dot};
 use super::half_plane::HalfPlane;
 use super::ray::{RIM, Walker};
-use super::rim::{CurvePart, Known, Misfit, RimPoint, unmet_plane};
+use super::rim::{CurvePart, Known, Misfit, RimPoint, parabola, unmet_plane};
 
 /// Most planes that may be loaded, vertices, and rounds in which planes are found.
 pub(super) const MOST_PLANES: usize = 128;
@@ -13,6 +13,9 @@ const MOST_ROUNDS: usize = 12;
 
 /// tan ½θ of the largest turn θ = 1.1 of half an arc.
 const HALF_TURN: f64 = 0.6;
+
+/// Distance from a side over its length within which a place counts as on it.
+const ON_CURVE: f64 = 1e-2;
 
 /// Relative distance within which two walks meet the same vertex.
 const SAME: f64 = 1e-6;
@@ -51,8 +54,6 @@ pub(super) struct Side {
     pub middle: [f64; 2],
     /// The plane of the curve, or [`RIM`].
     pub plane: u32,
-    /// The active planes, a bit each, without that of the curve.
-    pub active: u128,
 }
 
 /// Buffers, and what they hold at last.
@@ -60,12 +61,15 @@ pub(super) struct Side {
 pub(super) struct Network {
     pub vertices: Vec<Vertex>,
     pub sides: Vec<Side>,
-    /// Planes whose curves are to be followed, each from a place on it, and directions in which others are to be met.
+    /// Planes whose curves are to be followed, each from a place on it.
     queue: Vec<(u32, [f64; 3])>,
-    towards: Vec<[f64; 2]>,
+    /// The same of planes one curve of which is drawn: one that crosses the patch twice has two.
+    again: Vec<(u32, [f64; 3])>,
+    /// Directions in which planes are to be met, and for which of them also if their curve is drawn.
+    towards: Vec<([f64; 2], u32)>,
     /// The planes whose curves are drawn, and those that are active at the origin, a bit each.
-    drawn: u128,
-    at_origin: u128,
+    pub drawn: u128,
+    pub at_origin: u128,
     /// The edges of the triangle, beyond which nothing counts.
     pub edges: u128,
     ring: Vec<(f64, u32)>,
@@ -73,7 +77,7 @@ pub(super) struct Network {
     allowed: Misfit,
     pub misfit: Misfit,
     /// What the curves may be off, of ∫ p.
-    curved_load: f64,
+    pub curved_load: f64,
     /// ∫ p over the patch, roughly.
     pub rough_load: f64,
     stretches: [Vec<Stretch>; 2],
@@ -95,6 +99,7 @@ impl Network {
         self.vertices.clear();
         self.sides.clear();
         self.queue.clear();
+        self.again.clear();
         self.towards.clear();
         self.curved_load = 0.0;
         (self.drawn, self.at_origin) = (0, walker.field.look(&[0.0; 3]).active);
@@ -102,7 +107,7 @@ impl Network {
         let [e, f] = drawing.axis;
         let mut lengths = [0.0; 2];
         for (i, direction) in [[e, f], [-f, e], [-e, -f], [f, -e]].into_iter().enumerate() {
-            let end = self.look_out(walker, direction)?;
+            let end = self.look_out(walker, direction, RIM)?;
             self.vertices.push(Vertex { x: end, planes: [RIM; 2], uses: 1 });
             lengths[i % 2] += (end[0] * end[0] + end[1] * end[1]).sqrt();
         }
@@ -112,29 +117,47 @@ impl Network {
         let [of_area, of_load] = [OF_AREA * drawing.tolerance, OF_LOAD * drawing.tolerance];
         self.allowed = Misfit { area: of_area * area, load: of_load * self.rough_load, ..Misfit::default() };
         for _ in 0..MOST_ROUNDS {
-            while let Some((id, through)) = self.queue.pop() {
-                self.follow(walker, id, through)?;
+            loop {
+                if let Some((id, through)) = self.queue.pop() {
+                    if !self.is_drawn(id) {
+                        self.follow(walker, id, through)?;
+                    }
+                } else if let Some((id, through)) = self.again.pop() {
+                    self.follow(walker, id, through)?;
+                } else {
+                    break;
+                }
+            }
+            if !self.meet() {
+                continue;
             }
             if self.close(walker.field, drawing)? {
-                let met = self.vertices.iter().all(|vertex| vertex.planes.contains(&RIM) || vertex.uses == 2);
-                return if met { Ok(()) } else { Err(Trouble::Lost) };
+                return Ok(());
             }
-            while let Some([u, v]) = self.towards.pop() {
+            while let Some(([u, v], id)) = self.towards.pop() {
                 let length = (u * u + v * v).sqrt();
-                self.look_out(walker, [u / length, v / length])?;
+                self.look_out(walker, [u / length, v / length], id)?;
             }
         }
         Err(Trouble::Lost)
     }
 
-    /// Walks over a ray from the origin, for the planes that it meets; its end.
-    fn look_out(&mut self, walker: &mut Walker, direction: [f64; 2]) -> Result<[f64; 3], Trouble> {
+    /// Walks over a ray from the origin, for the planes that it meets whose curves are not drawn, or are plane `again`;
+    /// its end.
+    fn look_out(&mut self, walker: &mut Walker, direction: [f64; 2], again: u32) -> Result<[f64; 3], Trouble> {
         let [_, ray] = &mut self.stretches;
         ray.clear();
-        walker.walk_to_rim(&HalfPlane::upright([0.0; 3], direction), None, ray)?;
+        walker.walk_to_rim(HalfPlane::upright([0.0; 3], direction), None, ray)?;
+        for stretch in ray.iter().filter(|stretch| stretch.id == again && again != RIM) {
+            self.again.push((stretch.id, stretch.end));
+        }
         let met = ray.iter().filter(|stretch| stretch.id != RIM);
         self.queue.extend(met.map(|stretch| (stretch.id, stretch.end)));
         ray.last().map(|stretch| stretch.end).ok_or(Trouble::Lost)
+    }
+
+    fn is_drawn(&self, id: u32) -> bool {
+        self.drawn.checked_shr(id).unwrap_or(0) & 1 == 1
     }
 
     /// Adds the curve of a plane.
@@ -142,24 +165,26 @@ impl Network {
         if id as usize >= MOST_PLANES || self.vertices.len() > MOST_VERTICES {
             return Err(Trouble::Lost);
         }
-        if self.drawn >> id & 1 == 1 {
-            return Ok(());
-        }
+        let is_drawn = self.is_drawn(id);
         self.drawn |= 1 << id;
         let [backwards, forwards] = &mut self.stretches;
         walker.curve(id as usize, through, backwards, forwards)?;
         let count = self.stretches[1].len();
+        let first = &self.stretches[1][0].end;
+        if is_drawn && self.vertices.iter().any(|vertex| vertex.planes == [id, RIM] && are_same(&vertex.x, first)) {
+            return Ok(());
+        }
         let mut last = u32::MAX;
         for i in 0..count {
-            let Stretch { id: met, end, middle, active } = self.stretches[1][i];
+            let Stretch { id: met, end, middle, is_beyond } = self.stretches[1][i];
             let vertex = self.vertex([id, met], &end)?;
             if i > 0 {
                 let from = self.vertices[last as usize].x;
                 let part = CurvePart { id, from, middle, to: end };
-                self.add(walker.field, &part, [last, vertex], active, 0)?;
+                self.add(walker.field, &part, [last, vertex], is_beyond, 0)?;
             }
             last = vertex;
-            if met != RIM && self.drawn >> met & 1 == 0 {
+            if met != RIM && met != ONWARDS && !self.is_drawn(met) {
                 self.queue.push((met, end));
             }
         }
@@ -172,36 +197,82 @@ impl Network {
         field: &Field,
         part: &CurvePart,
         ends: [u32; 2],
-        active: u128,
+        is_beyond: bool,
         halvings: usize,
     ) -> Result<(), Trouble> {
-        let straying = if active & self.edges == 0 { part.straying(field) } else { 0.0 };
-        if straying > self.allowed.load && halvings < MOST_HALVINGS {
-            let [first, second] = part.halves(field).ok_or(Trouble::Lost)?;
+        let straying = if is_beyond { 0.0 } else { part.straying(field) };
+        let is_off = straying > self.allowed.load && halvings < MOST_HALVINGS;
+        if let Some([first, second]) = is_off.then(|| part.halves(field)).flatten() {
             self.vertices.push(Vertex { x: part.middle, planes: [part.id; 2], uses: 2 });
             let between = self.vertices.len() as u32 - 1;
-            self.add(field, &first, [ends[0], between], active, halvings + 1)?;
-            return self.add(field, &second, [between, ends[1]], active, halvings + 1);
+            self.add(field, &first, [ends[0], between], is_beyond, halvings + 1)?;
+            return self.add(field, &second, [between, ends[1]], is_beyond, halvings + 1);
         }
         self.curved_load += straying;
-        self.sides.push(Side { ends, middle: [part.middle[0], part.middle[1]], plane: part.id, active });
+        self.sides.push(Side { ends, middle: [part.middle[0], part.middle[1]], plane: part.id });
         Ok(())
     }
 
     /// The vertex of two curves at a place: as it is known, or a new one.
     fn vertex(&mut self, [own, met]: [u32; 2], x: &[f64; 3]) -> Result<u32, Trouble> {
+        if met == ONWARDS {
+            self.vertices.push(Vertex { x: *x, planes: [own; 2], uses: 2 });
+            return Ok(self.vertices.len() as u32 - 1);
+        }
         if met != RIM {
-            let size = x.iter().map(|c| c.abs()).fold(0.0, f64::max);
-            for (i, vertex) in self.vertices.iter_mut().enumerate().filter(|(_, v)| v.planes == [met, own]) {
-                let apart = (0..3).map(|c| (vertex.x[c] - x[c]).abs()).fold(0.0, f64::max);
-                if apart <= SAME * size {
-                    vertex.uses += 1;
-                    return Ok(i as u32);
-                }
+            let crossed = self.vertices.iter_mut().enumerate().filter(|(_, vertex)| vertex.planes == [met, own]);
+            if let Some((i, vertex)) = crossed.into_iter().find(|(_, vertex)| are_same(&vertex.x, x)) {
+                vertex.uses += 1;
+                return Ok(i as u32);
             }
         }
         self.vertices.push(Vertex { x: *x, planes: [own, met], uses: 1 });
         Ok(self.vertices.len() as u32 - 1)
+    }
+
+    /// Where one of two curves met the other, and this one not the first, it gets a vertex there; whether all such places
+    /// are on curves that are drawn.
+    fn meet(&mut self) -> bool {
+        for i in 0..self.vertices.len() {
+            let Vertex { x, planes: [own, met], uses } = self.vertices[i];
+            if uses != 1 || met == RIM || own == met {
+                continue;
+            }
+            self.vertices[i].uses = 2;
+            let near = self.sides.iter().enumerate().filter(|(_, side)| side.plane == met);
+            let near = near.map(|(place, side)| (self.off(side, &x), place));
+            let nearest = near.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
+            match nearest {
+                Some(((off, t), place)) if off < ON_CURVE => self.split(place, t, i as u32),
+                _ => self.again.push((met, x)),
+            }
+        }
+        self.again.is_empty()
+    }
+
+    /// How far a point is off a side, over the length of that, and the place on it that is nearest.
+    fn off(&self, side: &Side, x: &[f64; 3]) -> (f64, f64) {
+        let [from, to] = side.ends.map(|end| self.vertices[end as usize].x);
+        let [p, q] = [&from, &to].map(|x| [x[0], x[1]]);
+        let way = [q[0] - p[0], q[1] - p[1]];
+        let square = way[0] * way[0] + way[1] * way[1];
+        let mut t = 0.5;
+        let mut off = f64::INFINITY;
+        for _ in 0..3 {
+            let at = parabola([&p, &side.middle, &q], t);
+            let [u, v] = [x[0] - at[0], x[1] - at[1]];
+            off = (u * u + v * v).sqrt();
+            t = (t + (u * way[0] + v * way[1]) / square).clamp(0.0, 1.0);
+        }
+        (off / square.sqrt(), t)
+    }
+
+    fn split(&mut self, place: usize, t: f64, vertex: u32) {
+        let side = self.sides[place];
+        let [from, to] = side.ends.map(|end| self.vertices[end as usize].x);
+        let at = |t: f64| parabola([&[from[0], from[1]], &side.middle, &[to[0], to[1]]], t);
+        self.sides[place] = Side { ends: [side.ends[0], vertex], middle: at(0.5 * t), ..side };
+        self.sides.push(Side { ends: [vertex, side.ends[1]], middle: at(0.5 + 0.5 * t), ..side });
     }
 
     /// Adds the arcs of the rim; whether no plane was found on them whose curve was not known.
@@ -240,26 +311,30 @@ impl Network {
         (ends, [from, to]): ([u32; 2], [&RimPoint; 2]),
         halvings: usize,
     ) -> Result<bool, Trouble> {
+        if are_same(&from.x, &to.x) {
+            // One vertex.
+            return Ok(true);
+        }
         let middle = from.middle(to, field).ok_or(Trouble::Lost)?;
         let away = BEYOND * dot(&middle.x, &middle.x).sqrt();
         if away > field.loaded() {
             return Err(Trouble::Far(away));
         }
+        let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
         let least_beyond = LEFT_OUT * drawing.tolerance;
         let least = least_beyond * drawing.depth;
         let known = Known { drawn: self.drawn, at_origin: self.at_origin, least, least_beyond };
-        if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], own, &known) {
-            if self.drawn >> id & 1 == 1 {
-                return Err(Trouble::Lost);
+        let is_arc = !turns || halvings == MOST_HALVINGS;
+        if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], (own, is_arc), &known) {
+            self.towards.push(([u, v], id as u32));
+            if self.is_drawn(id as u32) {
+                // Its curve passes between there and the middle once more.
+                self.towards.push(([middle.x[0], middle.x[1]], id as u32));
             }
-            self.towards.push([u, v]);
             return Ok(false);
         }
-        let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;
-        // A plane whose curve does not count is everywhere as at the origin.
-        let active = middle.active & self.drawn | self.at_origin & !self.drawn;
-        let misfit = if active & self.edges == 0 {
+        let misfit = if middle.active & self.edges == 0 {
             Misfit::new(field, [from, &middle, to]).ok_or(Trouble::Lost)?
         } else {
             Misfit::default()
@@ -275,9 +350,15 @@ impl Network {
         self.misfit.area += CORRECTED * misfit.area;
         self.misfit.load += misfit.load;
         let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);
-        self.sides.push(Side { ends, middle: [u, v], plane: RIM, active });
+        self.sides.push(Side { ends, middle: [u, v], plane: RIM });
         Ok(true)
     }
+}
+
+/// Whether two walks found the same place.
+fn are_same(a: &[f64; 3], b: &[f64; 3]) -> bool {
+    let size = b.iter().map(|c| c.abs()).fold(0.0, f64::max);
+    (0..3).all(|c| (a[c] - b[c]).abs() <= SAME * size)
 }
 
 /// Rises with the angle of a point about the origin, from −2 to 2.

@@ -18,14 +18,11 @@ const MOST_CELLS: usize = 400;
 const STEEP: f64 = 3.0;
 
 /// Incline at the start of a cell from which on they are turned at once; else after half of the bend.
-const GENTLE: f64 = 0.1;
+pub(super) const GENTLE: f64 = 0.1;
 
 /// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either
 /// side.
 const NEAR_TURN: f64 = 0.999;
-
-/// A step back of this part of the size of the bodies is rounding.
-const TINY: f64 = 1e-13;
 
 /// Half of a straight line over the plane of the frame, from a point of the patch.
 #[derive(Clone, Copy, Debug)]
@@ -267,7 +264,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
     }
 
     /// Turns the axes of a walk in its half-plane.
-    fn turn(&mut self, [c, s]: [f64; 2]) {
+    pub fn turn(&mut self, [c, s]: [f64; 2]) {
         for plane in self.planes.iter_mut() {
             [plane.along, plane.up] = [c * plane.along + s * plane.up, c * plane.up - s * plane.along];
         }
@@ -275,7 +272,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
 
     /// Where the way through a cell ends: at the nearest plane or edge, or on the rim.
     pub fn end_of(&self, cell: &Cell) -> CellEnd {
-        let ((h, k), next) = self.next_crossing(cell, TINY * self.field.radius());
+        let ((h, k), next) = self.next_crossing(cell);
         // Beyond its turn the patch is no graph, and what is met there lies on another branch.
         let turn = cell.turn();
         if next.is_some() && h <= turn && cell.s.value(h, k) < 1.0 {
@@ -334,10 +331,11 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
     }
 
     /// The nearest place where a plane goes on or off, or an edge is met, and its plane.
-    fn next_crossing(&self, cell: &Cell, tiny: f64) -> ((f64, f64), Option<usize>) {
+    fn next_crossing(&self, cell: &Cell) -> ((f64, f64), Option<usize>) {
         let mut next = ((f64::INFINITY, 0.0), None);
+        let radius = self.field.radius();
         for (place, plane) in self.planes.iter().enumerate() {
-            if let Some((h, k)) = cell.crossing(plane, tiny) {
+            if let Some((h, k)) = cell.crossing(plane, radius) {
                 if h < next.0.0 {
                     next = ((h, k), Some(place));
                 }
@@ -369,7 +367,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
             return cell.rim(f64::INFINITY, 0.1 * radius).ok().map(|h| 1.0 / (rho + h));
         }
         let plane = self.planes.get(id as usize)?;
-        if let Some((h, _)) = cell.crossing(plane, TINY * radius) {
+        if let Some((h, _)) = cell.crossing(plane, radius) {
             return Some(1.0 / (rho + h));
         }
         (m == 0).then(|| cell.linear_inverse(plane)).filter(|inverse| inverse.is_finite())

@@ -5,9 +5,17 @@ use super::field::{Field, Look, Owner, dot};
 /// Most steps of Newton's method.
 const MOST_STEPS: usize = 12;
 
+/// The same with a bracket.
+const MOST_BRACKETED: usize = 60;
+
 /// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in
 /// it.
 const NEAR: f64 = 1e-5;
+
+/// tan ½θ of a turn up to which the tangents at both ends of an arc are made to cross, and the least cosine of the angle
+/// between the way from the chord to there and the normal of the chord.
+const MOST_HALF_TURN: f64 = 1e3;
+const SLANTED: f64 = 1e-4;
 
 /// Weight of a point of quadrature beside a curve over the square of its length.
 const OF_POINT: f64 = 1.0 / 32.0;
@@ -43,17 +51,65 @@ impl RimPoint {
         (a * d - b * c) / (1.0 + (a * c + b * d))
     }
 
-    /// The point of the rim across the middle of the chord to another one.
+    /// The point of the rim between here and another one, outwards from the middle of the chord: towards where the
+    /// tangents cross, which of a conic is the point whose tangent is along the chord.
     pub fn middle(&self, other: &Self, field: &Field) -> Option<Self> {
-        let (out, length) = across(&self.x, &other.x);
+        let (mut out, length) = across(&self.x, &other.x);
+        let half = self.half_turn_to(other);
+        let chord: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
+        if half > 0.0 && half < MOST_HALF_TURN {
+            let ([a, b], [c, d]) = (self.tangent, other.tangent);
+            let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
+            let along = (u * d - v * c) / (a * d - b * c);
+            let towards = [along * a - 0.5 * u, along * b - 0.5 * v];
+            let far = length_of(towards);
+            if towards[0] * out[0] + towards[1] * out[1] > SLANTED * far {
+                out = towards.map(|c| c / far);
+            }
+        }
         // Of a circle: half the chord times tan ¼θ.
-        let half = self.half_turn_to(other).clamp(-1.5, 1.5);
+        let half = half.clamp(-1.5, 1.5);
         let sagitta = 0.5 * length * half / (1.0 + (1.0 + half * half).sqrt());
-        let mut x: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
-        (0..2).for_each(|i| x[i] += sagitta * out[i]);
-        let x = on_line(field, x, (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]))?;
+        let at = |t: f64| [chord[0] + t * out[0], chord[1] + t * out[1], chord[2]];
+        let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]))
+            .or_else(|| outwards(field, at, (out, length), sagitta))?;
         Self::new(field, x)
     }
+}
+
+/// The point of the rim on a line outwards from a point of the patch: S is convex along it, so that Newton's method
+/// converges from outside, and what it says inside leads out.
+fn outwards(
+    field: &Field,
+    at: impl Fn(f64) -> [f64; 3],
+    (out, length): ([f64; 2], f64),
+    from: f64,
+) -> Option<[f64; 3]> {
+    let (mut inside, mut outside, mut t) = (0.0, f64::INFINITY, from.max(0.0));
+    let mut z = at(0.0)[2];
+    for _ in 0..MOST_BRACKETED {
+        let [u, v, _] = at(t);
+        if field.b.is_some() {
+            z = field.height(u, v, z)?;
+        }
+        let look = field.look(&[u, v, if field.b.is_some() { z } else { 0.0 }]);
+        let slope = look.slope(field.b.is_some());
+        let off = look.s[0] - 1.0;
+        if off < 0.0 {
+            inside = t
+        } else {
+            outside = t
+        }
+        let mut next = t - off / (slope[0] * out[0] + slope[1] * out[1]);
+        if !(next > inside && next < outside) {
+            next = if outside.is_finite() { 0.5 * (inside + outside) } else { 2.0 * t + length };
+        }
+        if (next - t).abs() <= NEAR * length {
+            return Some([u, v, z]);
+        }
+        t = next;
+    }
+    None
 }
 
 /// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; `function`
@@ -77,7 +133,7 @@ fn on_line(
         if !(step.abs() < length) {
             return None;
         }
-        if step.abs() <= NEAR * length {
+        if step.abs().max(up.abs()) <= NEAR * length {
             return Some(x);
         }
     }
@@ -175,11 +231,11 @@ pub(super) struct Known {
 /// in the middle of the arc. Its number, and a point of the arc where it is not.
 ///
 /// `own`: the planes whose curves end at the ends of the arc. Along a parabola through the three points the excess of a
-/// plane is one.
+/// plane is one; where the arc turns too much for that (not `is_arc`), its middle alone is looked at.
 pub(super) fn unmet_plane(
     field: &Field,
     [from, middle, to]: [&RimPoint; 3],
-    own: [u32; 2],
+    (own, is_arc): ([u32; 2], bool),
     known: &Known,
 ) -> Option<(usize, [f64; 3])> {
     for (i, plane) in field.planes.iter().enumerate() {
@@ -192,7 +248,7 @@ pub(super) fn unmet_plane(
         for (t, own) in [(0.0, own[0]), (1.0, own[1]), (0.5, u32::MAX), (extreme, u32::MAX)] {
             let [excess] = parabola([&[a], &[m], &[b]], t);
             let beyond = sign * excess;
-            if own != i as u32 && (0.0..=1.0).contains(&t) && beyond > farthest.1 {
+            if own != i as u32 && (0.0..=1.0).contains(&t) && (is_arc || t == 0.5) && beyond > farthest.1 {
                 farthest = (t, beyond);
             }
         }

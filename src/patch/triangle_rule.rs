@@ -136,6 +136,11 @@ impl CurvedTriangle {
         (x, by[0][0] * by[1][1] - by[0][1] * by[1][0])
     }
 
+    /// A point well inside, and twice the area about there.
+    pub fn middle(&self) -> ([f64; 2], f64) {
+        self.at(&[1.0 / 3.0; 3])
+    }
+
     /// Whether its Jacobian, a quadratic, is positive at the rule's points. Positive Bernstein coefficients prove it
     /// everywhere, and are tried first.
     pub fn is_regular(&self) -> bool {
