@@ -347,6 +347,12 @@ impl Network {
             let second = self.arc(field, drawing, ([between, ends[1]], [&middle, to]), halvings + 1)?;
             return Ok(first && second);
         }
+        if turns {
+            // What its tip holds is known no better.
+            let tip = from.tip(to);
+            self.misfit.area += tip;
+            self.misfit.load += drawing.depth * tip;
+        }
         self.misfit.area += CORRECTED * misfit.area;
         self.misfit.load += misfit.load;
         let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);

@@ -12,10 +12,11 @@ const MOST_BRACKETED: usize = 60;
 /// it.
 const NEAR: f64 = 1e-5;
 
-/// tan ½θ of a turn up to which the tangents at both ends of an arc are made to cross, and the least cosine of the angle
-/// between the way from the chord to there and the normal of the chord.
-const MOST_HALF_TURN: f64 = 1e3;
-const SLANTED: f64 = 1e-4;
+/// tan ½θ that a turn counts for at most where the middle of an arc is guessed.
+const MOST_HALF_TURN: f64 = 1.5;
+
+/// The sine of an angle from which on two tangents cross.
+const PARALLEL: f64 = 1e-9;
 
 /// Weight of a point of quadrature beside a curve over the square of its length.
 const OF_POINT: f64 = 1.0 / 32.0;
@@ -51,28 +52,46 @@ impl RimPoint {
         (a * d - b * c) / (1.0 + (a * c + b * d))
     }
 
+    /// Where the tangents here and at another point cross, from the middle of the chord.
+    fn crossing(&self, other: &Self) -> Option<[f64; 2]> {
+        let ([a, b], [c, d]) = (self.tangent, other.tangent);
+        let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
+        let turn = a * d - b * c;
+        let along = (u * d - v * c) / turn;
+        (turn > PARALLEL).then_some([along * a - 0.5 * u, along * b - 0.5 * v])
+    }
+
+    /// The area between the chord to another point and the tangents, within which the rim lies; infinite after half a
+    /// turn.
+    pub fn tip(&self, other: &Self) -> f64 {
+        let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
+        self.crossing(other).map_or(f64::INFINITY, |[x, y]| 0.5 * (x * v - y * u).abs())
+    }
+
     /// The point of the rim between here and another one, outwards from the middle of the chord: towards where the
     /// tangents cross, which of a conic is the point whose tangent is along the chord.
     pub fn middle(&self, other: &Self, field: &Field) -> Option<Self> {
         let (mut out, length) = across(&self.x, &other.x);
         let half = self.half_turn_to(other);
         let chord: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
-        if half > 0.0 && half < MOST_HALF_TURN {
-            let ([a, b], [c, d]) = (self.tangent, other.tangent);
-            let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
-            let along = (u * d - v * c) / (a * d - b * c);
-            let towards = [along * a - 0.5 * u, along * b - 0.5 * v];
-            let far = length_of(towards);
-            if towards[0] * out[0] + towards[1] * out[1] > SLANTED * far {
-                out = towards.map(|c| c / far);
-            }
-        }
         // Of a circle: half the chord times tan ¼θ.
-        let half = half.clamp(-1.5, 1.5);
-        let sagitta = 0.5 * length * half / (1.0 + (1.0 + half * half).sqrt());
+        let part = 1.0 / (1.0 + (1.0 + half * half).sqrt());
+        let mut sagitta = 0.5 * length * half.clamp(-MOST_HALF_TURN, MOST_HALF_TURN) * part;
+        let towards = self.crossing(other).or_else(|| {
+            // After half a turn the tangents are parallel.
+            let ([a, b], [c, d]) = (self.tangent, other.tangent);
+            (a * c + b * d < 0.0).then(|| [length * (a - c), length * (b - d)])
+        });
+        if let Some([u, v]) = towards.filter(|[u, v]| u * out[0] + v * out[1] > 0.0) {
+            let far = length_of([u, v]);
+            out = [u / far, v / far];
+            sagitta = (far * part).min(length);
+        }
         let at = |t: f64| [chord[0] + t * out[0], chord[1] + t * out[1], chord[2]];
-        let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]))
-            .or_else(|| outwards(field, at, (out, length), sagitta))?;
+        let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]));
+        // Inwards lies the rim on the other side, which of a sliver is near.
+        let is_outwards = |x: &[f64; 3]| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -NEAR * length;
+        let x = x.filter(is_outwards).or_else(|| outwards(field, at, (out, length), sagitta))?;
         Self::new(field, x)
     }
 }

@@ -109,9 +109,10 @@ fn is_whole(patch: &Patch) -> bool {
     !patch.flags.contains(PatchFlags::FOLDED) && !patch.flags.contains(PatchFlags::EMPTY)
 }
 
-/// How far force and torque are off, relative.
+/// How far force and torque are off, relative; of a sliver the root of the area is no measure of its reach.
 fn off(found: &Patch, exact: &Patch) -> f64 {
-    let (force, reach) = (exact.force.norm(), exact.area.sqrt());
+    let reach = exact.area.max(exact.second_moment.trace() / exact.area).sqrt();
+    let force = exact.force.norm();
     ((found.force - exact.force).norm() / force).max(0.1 * (found.torque - exact.torque).norm() / (force * reach))
 }
 
