@@ -21,8 +21,8 @@ pub(super) struct Stretch {
     pub id: u32,
     pub end: [f64; 3],
     pub middle: [f64; 3],
-    /// Whether it lies beyond an edge of the triangle.
-    pub is_beyond: bool,
+    /// Whether it is straight, or lies beyond an edge of the triangle: nothing strays from it.
+    pub is_exact: bool,
 }
 
 /// Why a walk did not get to the rim.
@@ -89,7 +89,7 @@ impl Walker<'_, '_, '_> {
                 id,
                 end,
                 middle: half_plane.at(rho + 0.5 * h, zeta + middle),
-                is_beyond: self.planes.iter().any(|plane| plane.active && plane.owner == Owner::Edge),
+                is_exact: cell.is_flat || self.planes.iter().any(|plane| plane.active && plane.owner == Owner::Edge),
             });
             if is_first {
                 first = Some((cell, h));

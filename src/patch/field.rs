@@ -204,26 +204,29 @@ impl<'a, 's> Field<'a, 's> {
     /// S and its gradient of both bodies at a point of the frame (of a boundary the height), and the active planes and
     /// the edges beyond which it lies, a bit each.
     pub fn look(&self, x: &[f64; 3]) -> Look {
-        let mut look = Look { s: [0.0, x[2]], gradients: [[0.0; 3], [0.0, 0.0, 1.0]], active: 0 };
-        let bodies = [Some(&self.a), self.b.as_ref()];
-        for (i, body) in bodies.into_iter().enumerate().filter_map(|(i, body)| Some((i, body?))) {
+        // The last of three is that of the edges, which have no weight and change nothing.
+        let (mut s, mut gradients) = ([0.0, x[2], 0.0], [[0.0; 3], [0.0, 0.0, 1.0], [0.0; 3]]);
+        let mut weights = [self.a.plane_weight, 0.0, 0.0];
+        let mut active = 0;
+        for (i, body) in [Some(&self.a), self.b.as_ref()].into_iter().enumerate() {
+            let Some(body) = body else { continue };
             let y: [f64; 3] = std::array::from_fn(|j| body.from_centre[j] + x[j]);
-            look.s[i] = body.sphere_weight * dot(&y, &y);
-            look.gradients[i] = y.map(|c| 2.0 * body.sphere_weight * c);
+            s[i] = body.sphere_weight * dot(&y, &y);
+            gradients[i] = y.map(|c| 2.0 * body.sphere_weight * c);
+            weights[i] = body.plane_weight;
         }
         for (bit, plane) in self.planes.iter().enumerate() {
             let excess = plane.excess + dot(&plane.normal, x);
             if excess > 0.0 {
                 // None for planes beyond the last bit: who asks for them has no more.
-                look.active |= 1_u128.checked_shl(bit as u32).unwrap_or(0);
-                // Edges have no weight, and change nothing.
-                let i = usize::from(plane.owner == Owner::B);
-                let weighted = self.plane_weight(plane.owner) * excess;
-                look.s[i] += weighted * excess;
-                (0..3).for_each(|j| look.gradients[i][j] += 2.0 * weighted * plane.normal[j]);
+                active |= 1_u128.checked_shl(bit as u32).unwrap_or(0);
+                let i = plane.owner as usize;
+                let weighted = weights[i] * excess;
+                s[i] += weighted * excess;
+                (0..3).for_each(|j| gradients[i][j] += 2.0 * weighted * plane.normal[j]);
             }
         }
-        look
+        Look { s: [s[0], s[1]], gradients: [gradients[0], gradients[1]], active }
     }
 
     /// The height at which S_A = S_B above a point of the plane z = 0, sought from a height nearby: on the boundary 0.

@@ -176,12 +176,12 @@ impl Network {
         }
         let mut last = u32::MAX;
         for i in 0..count {
-            let Stretch { id: met, end, middle, is_beyond } = self.stretches[1][i];
+            let Stretch { id: met, end, middle, is_exact } = self.stretches[1][i];
             let vertex = self.vertex([id, met], &end)?;
             if i > 0 {
                 let from = self.vertices[last as usize].x;
                 let part = CurvePart { id, from, middle, to: end };
-                self.add(walker.field, &part, [last, vertex], is_beyond, 0)?;
+                self.add(walker.field, &part, [last, vertex], is_exact, 0)?;
             }
             last = vertex;
             if met != RIM && met != ONWARDS && !self.is_drawn(met) {
@@ -197,16 +197,16 @@ impl Network {
         field: &Field,
         part: &CurvePart,
         ends: [u32; 2],
-        is_beyond: bool,
+        is_exact: bool,
         halvings: usize,
     ) -> Result<(), Trouble> {
-        let straying = if is_beyond { 0.0 } else { part.straying(field) };
+        let straying = if is_exact { 0.0 } else { part.straying(field) };
         let is_off = straying > self.allowed.load && halvings < MOST_HALVINGS;
         if let Some([first, second]) = is_off.then(|| part.halves(field)).flatten() {
             self.vertices.push(Vertex { x: part.middle, planes: [part.id; 2], uses: 2 });
             let between = self.vertices.len() as u32 - 1;
-            self.add(field, &first, [ends[0], between], is_beyond, halvings + 1)?;
-            return self.add(field, &second, [between, ends[1]], is_beyond, halvings + 1);
+            self.add(field, &first, [ends[0], between], is_exact, halvings + 1)?;
+            return self.add(field, &second, [between, ends[1]], is_exact, halvings + 1);
         }
         self.curved_load += straying;
         self.sides.push(Side { ends, middle: [part.middle[0], part.middle[1]], plane: part.id });

@@ -33,7 +33,11 @@ pub(super) struct RimPoint {
 impl RimPoint {
     /// What the field has at a point of the rim; `None` where the patch is no graph.
     pub fn new(field: &Field, x: [f64; 3]) -> Option<Self> {
-        let look = field.look(&x);
+        Self::of(field, x, &field.look(&x))
+    }
+
+    /// The same from what was seen there, or so near that its direction is known.
+    fn of(field: &Field, x: [f64; 3], look: &Look) -> Option<Self> {
         let (_, rises) = look.difference(field.b.is_some());
         // The slope of S points outwards.
         let slope = look.slope(field.b.is_some());
@@ -90,9 +94,10 @@ impl RimPoint {
         let at = |t: f64| [chord[0] + t * out[0], chord[1] + t * out[1], chord[2]];
         let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]));
         // Inwards lies the rim on the other side, which of a sliver is near.
-        let is_outwards = |x: &[f64; 3]| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -NEAR * length;
-        let x = x.filter(is_outwards).or_else(|| outwards(field, at, (out, length), sagitta))?;
-        Self::new(field, x)
+        let is_outwards =
+            |(x, _): &([f64; 3], Look)| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -NEAR * length;
+        let (x, look) = x.filter(is_outwards).or_else(|| outwards(field, at, (out, length), sagitta))?;
+        Self::of(field, x, &look)
     }
 }
 
@@ -103,7 +108,7 @@ fn outwards(
     at: impl Fn(f64) -> [f64; 3],
     (out, length): ([f64; 2], f64),
     from: f64,
-) -> Option<[f64; 3]> {
+) -> Option<([f64; 3], Look)> {
     let (mut inside, mut outside, mut t) = (0.0, f64::INFINITY, from.max(0.0));
     let mut z = at(0.0)[2];
     for _ in 0..MOST_BRACKETED {
@@ -124,7 +129,7 @@ fn outwards(
             next = if outside.is_finite() { 0.5 * (inside + outside) } else { 2.0 * t + length };
         }
         if (next - t).abs() <= NEAR * length {
-            return Some([u, v, z]);
+            return Some(([u, v, z], look));
         }
         t = next;
     }
@@ -132,13 +137,13 @@ fn outwards(
 }
 
 /// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; `function`
-/// has its value and gradient. `None` where it is farther than a length.
+/// has its value and gradient; and what was seen next to it. `None` where it is farther than a length.
 fn on_line(
     field: &Field,
     mut x: [f64; 3],
     (out, length): ([f64; 2], f64),
     function: impl Fn(&Look, &[f64; 3]) -> (f64, [f64; 3]),
-) -> Option<[f64; 3]> {
+) -> Option<([f64; 3], Look)> {
     for _ in 0..MOST_STEPS {
         let look = field.look(&x);
         let (d, rises) = look.difference(field.b.is_some());
@@ -153,7 +158,7 @@ fn on_line(
             return None;
         }
         if step.abs().max(up.abs()) <= NEAR * length {
-            return Some(x);
+            return Some((x, look));
         }
     }
     None
@@ -193,7 +198,7 @@ impl CurvePart {
         let excess = |_: &Look, x: &[f64; 3]| (plane.excess + dot(&plane.normal, x), plane.normal);
         let [a, b] = self.quarters().map(|x| on_line(field, x, (out, length), excess));
         let Self { id, from, middle, to } = *self;
-        Some([Self { id, from, middle: a?, to: middle }, Self { id, from: middle, middle: b?, to }])
+        Some([Self { id, from, middle: a?.0, to: middle }, Self { id, from: middle, middle: b?.0, to }])
     }
 }
 
@@ -262,6 +267,10 @@ pub(super) fn unmet_plane(
         let is_drawn = known.drawn >> i & 1 == 1;
         let is_on = if is_drawn { m > 0.0 } else { known.at_origin >> i & 1 == 1 };
         let sign = if is_on { -1.0 } else { 1.0 };
+        // The parabola stays below all three and its bend.
+        if (sign * a).max(sign * m).max(sign * b) + (a - 2.0 * m + b).abs() <= 0.0 {
+            continue;
+        }
         let extreme = (3.0 * a + b - 4.0 * m) / (4.0 * (a + b) - 8.0 * m);
         let mut farthest = (f64::NAN, 0.0);
         for (t, own) in [(0.0, own[0]), (1.0, own[1]), (0.5, u32::MAX), (extreme, u32::MAX)] {

@@ -4,8 +4,8 @@ use super::faces::Corner;
 use super::rim::parabola;
 use super::triangle_rule::CurvedTriangle;
 
-/// Most halvings of all sides of an outline.
-const MOST_HALVINGS: usize = 3;
+/// Most sides of an outline, halved or not, that is cut ear by ear.
+const MOST_SIDES: usize = 48;
 
 /// Cuts an outline: from one of its corners, or from its middle, or ear by ear; `None` where nothing will do.
 pub(super) fn cut(outline: &[Corner], ears: &mut Vec<Corner>, mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
@@ -38,7 +38,7 @@ pub(super) fn cut(outline: &[Corner], ears: &mut Vec<Corner>, mut give: impl FnM
         return Some(());
     }
     let mut sides = outline.to_vec();
-    for _ in 0..=MOST_HALVINGS {
+    while sides.len() <= MOST_SIDES {
         ears.clear();
         ears.extend_from_slice(&sides);
         let mut triangles = Vec::new();

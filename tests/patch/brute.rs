@@ -9,6 +9,14 @@ use potential_particles::{Particle, Pose};
 const AGREEMENT: f64 = 1e-8;
 const DEEPEST: u32 = 14;
 
+/// Directions of the lines over which it integrates, and what of the difference of both areas counts.
+const ANGLES: [f64; 2] = [0.77, 1.2];
+const OF_AREA: f64 = 0.1;
+
+/// Directions in which the rim is sought, and how much farther than there it may be.
+const DIRECTIONS: usize = 90;
+const FARTHER: f64 = 1.5;
+
 /// Points and weights of Gauss and Kronrod's rule on [−1, 1], from the middle on, and the weights of Gauss' own.
 const KRONROD: [[f64; 3]; 8] = [
     [0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4],
@@ -28,6 +36,8 @@ pub struct Brute {
     pub torque: Vector3<f64>,
     pub area: f64,
     pub reach: f64,
+    /// How far two such integrals differ, relative; of the area a tenth.
+    pub doubt: f64,
 }
 
 /// S of a body in the frame.
@@ -118,6 +128,25 @@ impl Task {
 
     fn s(&self, u: f64, v: f64) -> f64 {
         self.a.s(&self.point(u, v))
+    }
+
+    /// A distance beyond which lies nothing of the patch, `most` at most: farther out both potentials may be equal on
+    /// the other side of a body, too.
+    fn window(&mut self, most: f64) -> f64 {
+        let mut farthest = 0.0_f64;
+        for i in 0..DIRECTIONS {
+            let (sin, cos) = (std::f64::consts::TAU * i as f64 / DIRECTIONS as f64).sin_cos();
+            let mut way = 1e-6 * most;
+            while way < most {
+                self.half = 4.0 * way;
+                if self.s(way * cos, way * sin) >= 1.0 {
+                    break;
+                }
+                way *= 1.5;
+            }
+            farthest = farthest.max(way);
+        }
+        (FARTHER * farthest).min(most)
     }
 
     fn values(&self, u: f64, v: f64) -> Values {
@@ -283,9 +312,36 @@ fn halved(
     std::array::from_fn(|j| parts[0][j] + parts[1][j])
 }
 
-/// The patch of two bodies, or of one and the plane through `origin` within `sides` (a, b, c: a u + b v ≤ c), in a
-/// frame whose third axis is the normal; `half`: beyond this distance lies nothing of it. `None` where there is none.
+/// The patch of two bodies, or of one and the plane through `origin` within `sides` (a, b, c: a u + b v ≤ c in the
+/// frame), in a frame whose third axis is the normal; `half`: beyond this distance lies nothing of it. `None` where there
+/// is none.
+///
+/// It is integrated twice, over lines in two directions that are along no side, and the difference tells how far either
+/// can be trusted: the line along which the outer integral has a kink may be missed.
 pub fn brute(
+    a: (&Particle, &Pose),
+    b: Option<(&Particle, &Pose)>,
+    origin: &Vector3<f64>,
+    frame: &Matrix3<f64>,
+    sides: &[[f64; 3]],
+    half: f64,
+) -> Option<Brute> {
+    let [first, second] = ANGLES.map(|angle: f64| {
+        let (sin, cos) = angle.sin_cos();
+        let turned = frame * Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+        let sides: Vec<_> = sides.iter().map(|[u, v, c]| [cos * u + sin * v, cos * v - sin * u, *c]).collect();
+        over_lines(a, b, origin, &turned, &sides, half)
+    });
+    let (first, second) = (first?, second?);
+    let (size, reach) = (first.force.norm(), first.reach.max(second.reach));
+    let of_force = (first.force - second.force).norm() / size;
+    let of_torque = (first.torque - second.torque).norm() / (size * reach);
+    let doubt = of_force.max(of_torque).max((first.area / second.area - 1.0).abs() * OF_AREA);
+    Some(Brute { reach, doubt, ..first })
+}
+
+/// The same over the lines across the first axis of the frame.
+fn over_lines(
     a: (&Particle, &Pose),
     b: Option<(&Particle, &Pose)>,
     origin: &Vector3<f64>,
@@ -295,7 +351,11 @@ pub fn brute(
 ) -> Option<Brute> {
     let body = |(particle, pose): (&Particle, &Pose)| Body::new(particle, pose, origin, frame);
     let length = a.0.depth_length() + b.map_or(0.0, |b| b.0.depth_length());
-    let task = Task { a: body(a), b: b.map(body), sides: sides.to_vec(), half };
+    let mut task = Task { a: body(a), b: b.map(body), sides: sides.to_vec(), half };
+    if b.is_some() {
+        task.half = task.window(half);
+    }
+    let half = task.half;
     let (least_s, u) = least(-half, half, |u| (task.least(u).0, u));
     if !(least_s < 1.0) {
         return None;
@@ -323,7 +383,7 @@ pub fn brute(
     let force = length * Vector3::new(sums[0], sums[1], sums[2]);
     let torque = length * Vector3::new(sums[3], sums[4], sums[5]);
     let reach = ends.iter().fold(0.0_f64, |most, end| most.max(end.abs()));
-    (force.z > 0.0).then_some(Brute { force: frame * force, torque: frame * torque, area: sums[6], reach })
+    (force.z > 0.0).then_some(Brute { force: frame * force, torque: frame * torque, area: sums[6], reach, doubt: 0.0 })
 }
 
 /// A frame whose third axis is this.

@@ -132,15 +132,15 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
         if told.iter().any(|flag| found.flags.contains(*flag)) {
             return;
         }
-        if let Some(right) = &right {
+        if let Some(right) = right.as_ref().filter(|right| right.doubt <= tolerance) {
             judged += 1;
-            let allowed = ALLOWED * tolerance.max(found.error) + OF_BRUTE;
+            let allowed = ALLOWED * tolerance.max(found.error) + OF_BRUTE + right.doubt;
             let size = right.force.norm();
             let of_force = (found.force - right.force).norm() / size;
             let of_torque = (found.torque - right.torque).norm() / (size * right.reach);
             let of_area = (found.area / right.area - 1.0).abs();
             // The estimate is of the force; of the area it is one of its own.
-            let allowed_area = ALLOWED * found.area_error.max(10.0 * tolerance) + 10.0 * OF_BRUTE;
+            let allowed_area = ALLOWED * found.area_error.max(10.0 * tolerance) + 10.0 * (OF_BRUTE + right.doubt);
             if !(of_force <= allowed && of_torque <= allowed && of_area <= allowed_area) {
                 fault(format!(
                     "at {tolerance:e} off by {of_force:e}, {of_torque:e}, {of_area:e}: {found:?}, {right:?}"
