@@ -96,12 +96,16 @@ pub(super) fn cells(
 impl CellScratch {
     /// Cuts all cells within the edges into triangles; `None` where the network has no cells.
     fn triangulate(&mut self, walker: &Walker) -> Option<()> {
+        self.cut_faces(walker, false).or_else(|| self.cut_faces(walker, true))
+    }
+
+    fn cut_faces(&mut self, walker: &Walker, is_split: bool) -> Option<()> {
         let Self { network, faces, ears, triangles, .. } = self;
         triangles.clear();
         let field = &*walker.field;
         let (edges, drawn, at_origin) = (network.edges, network.drawn, network.at_origin);
         let mut height = 0.0;
-        faces.visit(network, |outline| {
+        faces.visit(network, is_split, |outline| {
             let first = triangles.len();
             let mut widest = ([0.0; 2], 0.0);
             // The form is known once a point inside is.

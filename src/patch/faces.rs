@@ -36,10 +36,18 @@ pub(super) struct Faces {
 
 impl Faces {
     /// Gives the outline of each face, counter-clockwise; `None` where the sides make no planar graph.
-    pub fn visit(&mut self, network: &Network, mut give: impl FnMut(&[Corner]) -> Option<()>) -> Option<()> {
+    ///
+    /// With `is_split` sides get vertices wherever one lies on them: of two curves that coincide another may have met one
+    /// only.
+    pub fn visit(
+        &mut self,
+        network: &Network,
+        is_split: bool,
+        mut give: impl FnMut(&[Corner]) -> Option<()>,
+    ) -> Option<()> {
         let size =
             network.vertices.iter().flat_map(|vertex| [vertex.x[0].abs(), vertex.x[1].abs()]).fold(0.0, f64::max);
-        self.unite(network, SAME * size);
+        self.unite(network, is_split, SAME * size);
         let vertices = self.link(network);
         self.is_done.clear();
         self.is_done.resize(self.next.len(), false);
@@ -70,7 +78,7 @@ impl Faces {
     }
 
     /// Finds vertices and sides that are the same.
-    fn unite(&mut self, network: &Network, near: f64) {
+    fn unite(&mut self, network: &Network, is_split: bool, near: f64) {
         let Network { vertices, sides, .. } = network;
         let Self { same, by_u, .. } = self;
         same.clear();
@@ -92,6 +100,9 @@ impl Faces {
                 self.sides.push(Side { ends, ..*side });
             }
         }
+        if is_split {
+            self.split(network, near);
+        }
         let order = |side: &Side| [side.ends[0].min(side.ends[1]), side.ends[0].max(side.ends[1])];
         self.sides.sort_unstable_by_key(order);
         // Of two parabolas between the same ends the same is as far off the chord.
@@ -102,6 +113,27 @@ impl Faces {
             (x * (v - a[1]) - y * (u - a[0])) / (x * x + y * y).sqrt()
         };
         self.sides.dedup_by(|b, a| order(a) == order(b) && (off(a) - off(b)).abs() <= near);
+    }
+
+    /// Splits sides at the vertices that lie on them.
+    fn split(&mut self, network: &Network, near: f64) {
+        let mut place = 0;
+        while place < self.sides.len() {
+            let side = self.sides[place];
+            let on_it = self.by_u.iter().copied().filter(|i| self.same[*i as usize] == *i && !side.ends.contains(i));
+            let on_it = on_it.filter_map(|i| {
+                let (off, t) = network.off(&side, &network.vertices[i as usize].x);
+                (off <= near && t > 0.0 && t < 1.0).then_some((i, t))
+            });
+            match on_it.into_iter().next() {
+                Some((vertex, t)) => {
+                    let [first, second] = network.halves(&side, t, vertex);
+                    self.sides[place] = first;
+                    self.sides.push(second);
+                }
+                None => place += 1,
+            }
+        }
     }
 
     /// Finds the way that follows each; the number of vertices.

@@ -243,15 +243,24 @@ impl Network {
             let near = near.map(|(place, side)| (self.off(side, &x), place));
             let nearest = near.min_by(|a, b| a.0.0.total_cmp(&b.0.0));
             match nearest {
-                Some(((off, t), place)) if off < ON_CURVE => self.split(place, t, i as u32),
+                Some(((off, t), place)) if off < ON_CURVE * self.length(&self.sides[place]) => {
+                    let [first, second] = self.halves(&self.sides[place], t, i as u32);
+                    self.sides[place] = first;
+                    self.sides.push(second);
+                }
                 _ => self.again.push((met, x)),
             }
         }
         self.again.is_empty()
     }
 
-    /// How far a point is off a side, over the length of that, and the place on it that is nearest.
-    fn off(&self, side: &Side, x: &[f64; 3]) -> (f64, f64) {
+    fn length(&self, side: &Side) -> f64 {
+        let [p, q] = side.ends.map(|end| self.vertices[end as usize].x);
+        ((q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2)).sqrt()
+    }
+
+    /// How far a point is off a side, and the place on it that is nearest.
+    pub fn off(&self, side: &Side, x: &[f64; 3]) -> (f64, f64) {
         let [from, to] = side.ends.map(|end| self.vertices[end as usize].x);
         let [p, q] = [&from, &to].map(|x| [x[0], x[1]]);
         let way = [q[0] - p[0], q[1] - p[1]];
@@ -264,15 +273,17 @@ impl Network {
             off = (u * u + v * v).sqrt();
             t = (t + (u * way[0] + v * way[1]) / square).clamp(0.0, 1.0);
         }
-        (off / square.sqrt(), t)
+        (off, t)
     }
 
-    fn split(&mut self, place: usize, t: f64, vertex: u32) {
-        let side = self.sides[place];
+    /// Both parts of a side that gets a vertex at t.
+    pub fn halves(&self, side: &Side, t: f64, vertex: u32) -> [Side; 2] {
         let [from, to] = side.ends.map(|end| self.vertices[end as usize].x);
         let at = |t: f64| parabola([&[from[0], from[1]], &side.middle, &[to[0], to[1]]], t);
-        self.sides[place] = Side { ends: [side.ends[0], vertex], middle: at(0.5 * t), ..side };
-        self.sides.push(Side { ends: [vertex, side.ends[1]], middle: at(0.5 + 0.5 * t), ..side });
+        [
+            Side { ends: [side.ends[0], vertex], middle: at(0.5 * t), ..*side },
+            Side { ends: [vertex, side.ends[1]], middle: at(0.5 + 0.5 * t), ..*side },
+        ]
     }
 
     /// Adds the arcs of the rim; whether no plane was found on them whose curve was not known.

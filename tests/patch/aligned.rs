@@ -2,7 +2,7 @@
 
 use crate::bodies::{Chance, contact, cuboid};
 use crate::brute::{brute, frame_of};
-use potential_particles::{Particle, PatchFlags, PatchScratch, PatchSettings, Pose, patch_of_contact};
+use potential_particles::{Particle, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Pose, patch_of_contact};
 
 /// Checks the patch of a pair; whether it was compared.
 fn compare(what: &str, a: (&Particle, &Pose), b: (&Particle, &Pose), tolerance: f64) -> bool {
@@ -11,15 +11,16 @@ fn compare(what: &str, a: (&Particle, &Pose), b: (&Particle, &Pose), tolerance: 
         return false;
     }
     let settings = PatchSettings { tolerance, ..PatchSettings::default() };
-    let found = patch_of_contact(a.0, a.1, b.0, b.1, &contact, &settings, &mut PatchScratch::new(), |_| ()).unwrap();
+    let mut farthest = 0.0_f64;
+    let visit = |point: PatchPoint| farthest = farthest.max(point.position.norm());
+    let found = patch_of_contact(a.0, a.1, b.0, b.1, &contact, &settings, &mut PatchScratch::new(), visit).unwrap();
     if [PatchFlags::FOLDED, PatchFlags::EMPTY, PatchFlags::TOLERANCE_NOT_REACHED]
         .iter()
         .any(|f| found.flags.contains(*f))
     {
         return false;
     }
-    let half = a.0.bounding_radius().min(b.0.bounding_radius()) * 2.0;
-    let right = brute(a, Some(b), &contact.point, &frame_of(&contact.normal), &[], half).unwrap();
+    let right = brute(a, Some(b), &contact.point, &frame_of(&contact.normal), &[], 2.0 * farthest).unwrap();
     let size = right.force.norm();
     let off = (found.force - right.force).norm() / size;
     let of_torque = (found.torque - right.torque).norm() / (size * right.reach);

@@ -13,10 +13,6 @@ const DEEPEST: u32 = 14;
 const ANGLES: [f64; 2] = [0.77, 1.2];
 const OF_AREA: f64 = 0.1;
 
-/// Directions in which the rim is sought, and how much farther than there it may be.
-const DIRECTIONS: usize = 90;
-const FARTHER: f64 = 1.5;
-
 /// Points and weights of Gauss and Kronrod's rule on [−1, 1], from the middle on, and the weights of Gauss' own.
 const KRONROD: [[f64; 3]; 8] = [
     [0.0, 0.209_482_141_084_727_82, 0.417_959_183_673_469_4],
@@ -128,25 +124,6 @@ impl Task {
 
     fn s(&self, u: f64, v: f64) -> f64 {
         self.a.s(&self.point(u, v))
-    }
-
-    /// A distance beyond which lies nothing of the patch, `most` at most: farther out both potentials may be equal on
-    /// the other side of a body, too.
-    fn window(&mut self, most: f64) -> f64 {
-        let mut farthest = 0.0_f64;
-        for i in 0..DIRECTIONS {
-            let (sin, cos) = (std::f64::consts::TAU * i as f64 / DIRECTIONS as f64).sin_cos();
-            let mut way = 1e-6 * most;
-            while way < most {
-                self.half = 4.0 * way;
-                if self.s(way * cos, way * sin) >= 1.0 {
-                    break;
-                }
-                way *= 1.5;
-            }
-            farthest = farthest.max(way);
-        }
-        (FARTHER * farthest).min(most)
     }
 
     fn values(&self, u: f64, v: f64) -> Values {
@@ -313,8 +290,10 @@ fn halved(
 }
 
 /// The patch of two bodies, or of one and the plane through `origin` within `sides` (a, b, c: a u + b v ≤ c in the
-/// frame), in a frame whose third axis is the normal; `half`: beyond this distance lies nothing of it. `None` where there
-/// is none.
+/// frame), in a frame whose third axis is the normal. `None` where there is none.
+///
+/// `half`: beyond this distance lies nothing of it. Much farther out both potentials may be equal on the other side of a
+/// body, too. Twice as far as the points of a patch will do: where it goes on there, that is seen.
 ///
 /// It is integrated twice, over lines in two directions that are along no side, and the difference tells how far either
 /// can be trusted: the line along which the outer integral has a kink may be missed.
@@ -351,11 +330,7 @@ fn over_lines(
 ) -> Option<Brute> {
     let body = |(particle, pose): (&Particle, &Pose)| Body::new(particle, pose, origin, frame);
     let length = a.0.depth_length() + b.map_or(0.0, |b| b.0.depth_length());
-    let mut task = Task { a: body(a), b: b.map(body), sides: sides.to_vec(), half };
-    if b.is_some() {
-        task.half = task.window(half);
-    }
-    let half = task.half;
+    let task = Task { a: body(a), b: b.map(body), sides: sides.to_vec(), half };
     let (least_s, u) = least(-half, half, |u| (task.least(u).0, u));
     if !(least_s < 1.0) {
         return None;

@@ -6,8 +6,8 @@ use crate::ledger::{Fault, Finding, Ledger};
 use crate::random::Random;
 use nalgebra::{Rotation3, Vector3};
 use potential_particles::{
-    Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, PatchState, Plane, Pose, Settings, detect,
-    patch_of_contact,
+    Kind, Particle, Patch, PatchFlags, PatchPoint, PatchScratch, PatchSettings, PatchState, Plane, Pose, Settings,
+    detect, patch_of_contact,
 };
 
 /// Tolerances that are asked for.
@@ -103,8 +103,11 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
         return;
     }
     let mut scratch = PatchScratch::new();
-    let half = 2.0 * a.bounding_radius().min(b.bounding_radius());
-    let right = brute((&a, &at_a), Some((&b, &at_b)), &contact.point, &frame_of(&contact.normal), &[], half);
+    let mut farthest = 0.0_f64;
+    let visit = |point: PatchPoint| farthest = farthest.max(point.position.norm());
+    let _ = patch_of_contact(&a, &at_a, &b, &at_b, &contact, &PatchSettings::default(), &mut scratch, visit);
+    let frame = frame_of(&contact.normal);
+    let right = brute((&a, &at_a), Some((&b, &at_b)), &contact.point, &frame, &[], 2.0 * farthest);
     let mut fault = |detail: String| {
         let numbers = |p: &Particle| {
             let planes: Vec<[f64; 4]> = p.planes().map(|p| [p.normal.x, p.normal.y, p.normal.z, p.offset]).collect();
