@@ -68,6 +68,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
   PLANAR=50000      stress: number of pairs of the plane; by default POSES/20
   HULLS=100000      stress: number of hulls and bodies of half-spaces, against exact arithmetic; by default POSES/10
+  PATCHES=1000      stress: number of pairs whose patches are held against brute force; by default POSES/1000
   MEMORIES=50000    stress: number of pairs solved from memories of any bytes; by default POSES/20
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
@@ -320,7 +321,7 @@ stress: OUTPUT := $(or $(OUTPUT),out/stress)
 stress:
 	$(call heading,Stress)
 	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) \
-	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PLANAR),--planar $(PLANAR)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
+	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PLANAR),--planar $(PLANAR)) $(if $(PATCHES),--patches $(PATCHES)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
 	/usr/bin/python3 tools/stress/plot.py $(OUTPUT); exit $$status
 
 fuzz: export FUZZ_SECONDS ?= 60

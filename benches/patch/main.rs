@@ -1,11 +1,15 @@
 //! Contact patches: accuracy against closed forms and the gradient of their energy, time by kind of contact. Results go
 //! to out/patch/summary.json; `-- quick` takes a little of everything, `-- pairs=500` as many pairs for the gradient of
-//! the energy.
+//! the energy, `-- seed=7` the same random families again.
 
 mod accuracy;
 #[path = "../../tests/patch/bodies.rs"]
 mod bodies;
+#[allow(dead_code)] // Nothing is carried on here.
+#[path = "../../tests/patch/boundaries.rs"]
+mod boundaries;
 mod cases;
+mod families;
 mod gradients;
 mod planar;
 #[path = "../scene/mod.rs"]
@@ -66,8 +70,12 @@ fn main() {
     targets.push(at_most("300 + 300 planes at 1e-4: evaluations of both bodies", 1500.0, many));
     targets.push(at_most("carried on by its stiffness: evaluations of both bodies", 40.0, speed::carried(unit)));
     let in_plane = planar::measure(unit);
-    let summary =
-        json!({"targets": targets, "unit_seconds": unit, "gradients": gradients, "in_plane": in_plane, "kinds": kinds});
+    let drawn = std::time::UNIX_EPOCH.elapsed().map_or(1, |since| u64::from(since.subsec_nanos()));
+    let seed = std::env::args().find_map(|argument| argument.strip_prefix("seed=")?.parse().ok()).unwrap_or(drawn);
+    let (families, rays) = families::measure(if quick { 100 } else { 1000 }, seed);
+    targets.push(at_most("patches of a family that need rays and do not fold, most", 0.01, rays));
+    let summary = json!({"targets": targets, "unit_seconds": unit, "gradients": gradients, "in_plane": in_plane,
+        "kinds": kinds, "families": families, "seed": seed});
     let path = concat!(env!("CARGO_MANIFEST_DIR"), "/out/patch/summary.json");
     write_summary(path, &summary).expect("out/patch/summary.json");
 }

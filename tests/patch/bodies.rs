@@ -1,6 +1,6 @@
 //! Random bodies of every kind, pairs of them at a stated overlap, and what else tests and benchmark of patches share.
 
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use potential_particles::{Contact, Kind, Particle, Plane, Pose, Settings, detect};
 
 /// Numbers that look like chance: the same in every run.
@@ -73,6 +73,28 @@ pub fn body(family: &str, r: f64, k: f64, chance: &mut Chance) -> Particle {
         },
         _ => Particle::sphere(0.5).expect("a ball"),
     }
+}
+
+/// A rock of many faces, as in a pile: planes about a ball; and their normals.
+pub fn grain(planes: usize, r: f64, k: f64, chance: &mut Chance) -> (Particle, Vec<Vector3<f64>>) {
+    loop {
+        let normals: Vec<_> = (0..planes).map(|_| chance.direction()).collect();
+        let planes: Vec<_> =
+            normals.iter().map(|n| Plane { normal: *n, offset: 0.4 + 0.1 * chance.uniform() - r }).collect();
+        if let Ok(grain) = Particle::new(&planes, r, k, 0.8) {
+            if grain.bounding_radius() < 1.2 {
+                return (grain, normals);
+            }
+        }
+    }
+}
+
+/// A turn that brings a direction close to another one.
+pub fn facing(from: &Vector3<f64>, to: &Vector3<f64>, chance: &mut Chance) -> Matrix3<f64> {
+    let tilt = 10f64.powf(-4.0 * chance.uniform()) * 0.3 * chance.direction();
+    let turn =
+        Rotation3::rotation_between(from, to).unwrap_or_else(|| Rotation3::new(std::f64::consts::PI * Vector3::x()));
+    (Rotation3::new(tilt) * Rotation3::new(6.0 * chance.uniform() * to) * turn).into_inner()
 }
 
 /// Two bodies in contact.

@@ -1,33 +1,11 @@
 //! Patches in cells against the same by rays, which share nothing with them but the walk through a cell.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body};
+use crate::bodies::{Chance, FAMILIES, Pair, body, facing, grain};
 use crate::boundaries::{Boundary, resting, triangle_over};
-use nalgebra::{Matrix3, Rotation3, Vector3};
+use nalgebra::{Matrix3, Vector3};
 use potential_particles::{
-    Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Triangle, Wall, patch_of_contact,
+    Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Triangle, Wall, patch_of_contact,
 };
-
-/// A rock of many faces, as in a pile: 24 planes about a ball.
-fn grain(r: f64, k: f64, chance: &mut Chance) -> (Particle, Vec<Vector3<f64>>) {
-    loop {
-        let normals: Vec<_> = (0..24).map(|_| chance.direction()).collect();
-        let planes: Vec<_> =
-            normals.iter().map(|n| Plane { normal: *n, offset: 0.4 + 0.1 * chance.uniform() - r }).collect();
-        if let Ok(grain) = Particle::new(&planes, r, k, 0.8) {
-            if grain.bounding_radius() < 1.2 {
-                return (grain, normals);
-            }
-        }
-    }
-}
-
-/// A turn that brings a direction close to another one.
-fn facing(from: &Vector3<f64>, to: &Vector3<f64>, chance: &mut Chance) -> Matrix3<f64> {
-    let tilt = 10f64.powf(-4.0 * chance.uniform()) * 0.3 * chance.direction();
-    let turn =
-        Rotation3::rotation_between(from, to).unwrap_or_else(|| Rotation3::new(std::f64::consts::PI * Vector3::x()));
-    (Rotation3::new(tilt) * Rotation3::new(6.0 * chance.uniform() * to) * turn).into_inner()
-}
 
 /// The patch at a tolerance.
 type Taken = Box<dyn Fn(f64) -> Patch>;
@@ -40,7 +18,7 @@ fn pair(chance: &mut Chance) -> Option<Taken> {
         Pair::random(families, k, r, 0.8 * depth, chance)
     } else {
         let r = chance.pick(&[1e-3, 0.05]);
-        let ((a, of_a), (b, of_b)) = (grain(r, k[0], chance), grain(r, k[1], chance));
+        let ((a, of_a), (b, of_b)) = (grain(24, r, k[0], chance), grain(24, r, k[1], chance));
         let way = chance.pick(&of_a);
         let turn = facing(&chance.pick(&of_b), &-way, chance);
         let aside = (way + 0.2 * chance.direction()).normalize();
@@ -62,7 +40,7 @@ fn at_rest(chance: &mut Chance) -> (Particle, Pose) {
         (a, chance.rotation(), overlap)
     } else {
         let r = chance.pick(&[1e-3, 0.05]);
-        let (a, normals) = grain(r, k, chance);
+        let (a, normals) = grain(24, r, k, chance);
         let turn = facing(&chance.pick(&normals), &-Vector3::z(), chance);
         (a, turn, 0.8 * depth * r)
     };
