@@ -112,3 +112,72 @@ fn lens(outline: &[Corner]) -> [CurvedTriangle; 2] {
         CurvedTriangle::new([b.at, b.middle, a.middle], [quarter(&b, &a, 0.25), None, quarter(&a, &b, 0.75)]),
     ]
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Corners with the middles of straight sides, which `bend` moves.
+    fn outline(corners: &[[f64; 2]], bend: impl Fn(usize) -> [f64; 2]) -> Vec<Corner> {
+        let count = corners.len();
+        let side = |i: usize| {
+            let (at, next, by) = (corners[i], corners[(i + 1) % count], bend(i));
+            Corner { at, middle: [0, 1].map(|c| 0.5 * (at[c] + next[c]) + by[c]) }
+        };
+        (0..count).map(side).collect()
+    }
+
+    /// The area within parabolas: that of the polygon, and 4/3 of the triangle of each with its chord (Archimedes).
+    fn area_of(outline: &[Corner]) -> f64 {
+        let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];
+        let next = |i: usize| outline[(i + 1) % outline.len()].at;
+        let side = |i: usize| {
+            let Corner { at: p, middle: m } = outline[i];
+            let q = next(i);
+            cross(p, q) + 4.0 / 3.0 * (cross(p, m) + cross(m, q) - cross(p, q))
+        };
+        0.5 * (0..outline.len()).map(side).sum::<f64>()
+    }
+
+    /// Triangles whose Jacobians are positive and whose areas add up cover the outline once.
+    #[test]
+    fn triangles_cover_the_outline_once() {
+        let ring = |turn: f64, r: f64| [r * turn.cos(), r * turn.sin()];
+        let arc = |from: f64, r: f64| (0..7).map(move |i| ring(from + 0.5 * f64::from(i), r));
+        // Three quarters of a ring: no point sees all of it.
+        let mut bent: Vec<[f64; 2]> = arc(0.0, 1.0).collect();
+        bent.extend(arc(0.0, 0.8).collect::<Vec<_>>().into_iter().rev());
+        let comb = [
+            [0.0, 0.0],
+            [5.0, 0.0],
+            [5.0, 3.0],
+            [4.0, 3.0],
+            [4.0, 1.0],
+            [3.0, 1.0],
+            [3.0, 3.0],
+            [2.0, 3.0],
+            [2.0, 1.0],
+            [1.0, 1.0],
+            [1.0, 3.0],
+            [0.0, 3.0],
+        ];
+        let bow = [[0.0, 0.0], [1.0, 0.2], [2.0, 0.0]];
+        let outlines = [
+            outline(&bent, |_| [0.0; 2]),
+            outline(&comb, |i| if i == 0 { [0.0, 0.3] } else { [0.0; 2] }),
+            outline(&bow, |i| if i == 2 { [0.0, 0.6] } else { [0.0; 2] }),
+            // A lens, and one side of it beside the other.
+            vec![Corner { at: [0.0, 0.0], middle: [1.0, -0.4] }, Corner { at: [2.0, 0.0], middle: [1.0, 0.3] }],
+            vec![Corner { at: [0.0, 0.0], middle: [1.0, 0.9] }, Corner { at: [2.0, 0.0], middle: [1.0, 1.0] }],
+        ];
+        for outline in &outlines {
+            let (mut sum, mut count) = (0.0, 0);
+            let done = cut(outline, &mut Vec::new(), |triangle| {
+                assert!(triangle.is_regular());
+                (sum, count) = (sum + triangle.area(), count + 1);
+            });
+            let area = area_of(outline);
+            assert!(done.is_some() && count > 0 && (sum - area).abs() < 1e-12 * area, "{sum} {area} of {outline:?}");
+        }
+    }
+}
