@@ -2,21 +2,21 @@
 //! triangles.
 
 use super::curve::Trouble;
-use super::faces::{Corner, Faces};
+use super::faces::Faces;
 use super::form::Form;
 use super::network::{Drawing, MOST_PLANES, Network};
 use super::pieces::Estimate;
 use super::ray::{Node, Walker};
 use super::smoothness::norm;
 use super::triangle_rule::{CurvedTriangle, INTEGRALS, Integrals, POINTS, Rule, WHOLE, quarters};
-use super::triangulation::cut;
+use super::triangulation::{Ears, cut};
 
 /// Buffers.
 #[derive(Debug, Default)]
 pub(super) struct CellScratch {
     network: Network,
     faces: Faces,
-    ears: Vec<Corner>,
+    ears: Ears,
     triangles: Vec<(CurvedTriangle, Form)>,
     parts: Vec<Part>,
     /// The least S.

@@ -7,8 +7,16 @@ use super::triangle_rule::CurvedTriangle;
 /// Most sides of an outline, halved or not, that is cut ear by ear.
 const MOST_SIDES: usize = 48;
 
+/// Buffers.
+#[derive(Debug, Default)]
+pub(super) struct Ears {
+    sides: Vec<Corner>,
+    left: Vec<Corner>,
+    triangles: Vec<CurvedTriangle>,
+}
+
 /// Cuts an outline: from one of its corners, or from its middle, or ear by ear; `None` where nothing will do.
-pub(super) fn cut(outline: &[Corner], ears: &mut Vec<Corner>, mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
+pub(super) fn cut(outline: &[Corner], ears: &mut Ears, mut give: impl FnMut(CurvedTriangle)) -> Option<()> {
     let count = outline.len();
     let corner = |i: usize| &outline[i % count];
     if count == 2 {
@@ -37,23 +45,23 @@ pub(super) fn cut(outline: &[Corner], ears: &mut Vec<Corner>, mut give: impl FnM
         (0..count).for_each(|i| give(triangle(i)));
         return Some(());
     }
-    let mut sides = outline.to_vec();
-    while sides.len() <= MOST_SIDES {
-        ears.clear();
-        ears.extend_from_slice(&sides);
-        let mut triangles = Vec::new();
-        if clip(ears, &mut triangles).is_some() {
-            triangles.into_iter().for_each(give);
+    ears.sides.clear();
+    ears.sides.extend_from_slice(outline);
+    while ears.sides.len() <= MOST_SIDES {
+        ears.left.clone_from(&ears.sides);
+        ears.triangles.clear();
+        if clip(&mut ears.left, &mut ears.triangles).is_some() {
+            ears.triangles.iter().for_each(|triangle| give(*triangle));
             return Some(());
         }
-        let count = sides.len();
-        sides = (0..2 * count)
-            .map(|i| {
-                let (Corner { at, middle }, next) = (sides[i / 2], sides[(i / 2 + 1) % count].at);
-                let t = if i % 2 == 0 { 0.25 } else { 0.75 };
-                Corner { at: if i % 2 == 0 { at } else { middle }, middle: parabola([&at, &middle, &next], t) }
-            })
-            .collect();
+        // Halves of sides are less bent.
+        ears.left.clone_from(&ears.sides);
+        ears.sides.clear();
+        for (i, Corner { at, middle }) in ears.left.iter().enumerate() {
+            let next = ears.left[(i + 1) % ears.left.len()].at;
+            let [first, second] = [0.25, 0.75].map(|t| parabola([at, middle, &next], t));
+            ears.sides.extend([Corner { at: *at, middle: first }, Corner { at: *middle, middle: second }]);
+        }
     }
     None
 }
@@ -172,7 +180,7 @@ mod tests {
         ];
         for outline in &outlines {
             let (mut sum, mut count) = (0.0, 0);
-            let done = cut(outline, &mut Vec::new(), |triangle| {
+            let done = cut(outline, &mut Ears::default(), |triangle| {
                 assert!(triangle.is_regular());
                 (sum, count) = (sum + triangle.area(), count + 1);
             });
