@@ -35,8 +35,8 @@ pub(super) enum Trouble {
 }
 
 impl Walker<'_, '_, '_> {
-    /// Walks to the rim in a half-plane, which is that of the plane `own` or upright; the first cell and the way through
-    /// it, if the axes were not turned there.
+    /// Walks to the rim in a half-plane, which is that of the plane `own` or upright; the first cell and the way
+    /// through it, if the axes were not turned there.
     ///
     /// An upright walk that would have to be turned is lost: the patch turns back.
     pub fn walk_to_rim(

@@ -37,8 +37,8 @@ pub(super) struct Faces {
 impl Faces {
     /// Gives the outline of each face, counter-clockwise; `None` where the sides make no planar graph.
     ///
-    /// With `is_split` sides get vertices wherever one lies on them: of two curves that coincide another may have met one
-    /// only.
+    /// With `is_split` sides get vertices wherever one lies on them: of two curves that coincide another may have met
+    /// one only.
     pub fn visit(
         &mut self,
         network: &Network,

@@ -230,8 +230,8 @@ impl Network {
         Ok(self.vertices.len() as u32 - 1)
     }
 
-    /// Where one of two curves met the other, and this one not the first, it gets a vertex there; whether all such places
-    /// are on curves that are drawn.
+    /// Where a curve met another, and that one not the first, the other gets a vertex; whether all such places are on
+    /// curves that are drawn.
     fn meet(&mut self) -> bool {
         for i in 0..self.vertices.len() {
             let Vertex { x, planes: [own, met], uses } = self.vertices[i];

@@ -292,8 +292,8 @@ fn halved(
 /// The patch of two bodies, or of one and the plane through `origin` within `sides` (a, b, c: a u + b v ≤ c in the
 /// frame), in a frame whose third axis is the normal. `None` where there is none.
 ///
-/// `half`: beyond this distance lies nothing of it. Much farther out both potentials may be equal on the other side of a
-/// body, too. Twice as far as the points of a patch will do: where it goes on there, that is seen.
+/// `half`: beyond this distance lies nothing of it. Much farther out both potentials may be equal on the other side of
+/// a body, too. Twice as far as the points of a patch will do: where it goes on there, that is seen.
 ///
 /// It is integrated twice, over lines in two directions that are along no side, and the difference tells how far either
 /// can be trusted: the line along which the outer integral has a kink may be missed.
