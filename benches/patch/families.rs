@@ -29,6 +29,7 @@ const TOLERANCE: f64 = 1e-4;
 /// Of so many calls the shortest counts.
 const CALLS: usize = 6;
 
+#[allow(clippy::large_enum_variant)] // One at a time.
 enum Case {
     Pair(Pair),
     Boundary(Boundary, Particle, Pose),
@@ -142,13 +143,8 @@ fn overlapping(
     let pose_a = Pose::at(at_a).ok()?;
     let pose_b = Pose::from_rotation(at_b, tilt.unwrap_or(Rotation3::identity()).matrix()).ok()?;
     let contact = contact(&a, &pose_a, &b, &pose_b);
-    (contact.kind == Kind::Overlapping && contact.s > 1e-3).then_some(Case::Pair(Pair {
-        a,
-        b,
-        pose_a,
-        pose_b,
-        contact,
-    }))
+    let pair = Pair { a, b, pose_a, pose_b, contact };
+    (contact.kind == Kind::Overlapping && contact.s > 1e-3).then_some(Case::Pair(pair))
 }
 
 /// A row for each kind and k, and the largest part of patches that need rays though they do not fold.

@@ -2,13 +2,10 @@
 //!
 //! Each side is walked over both ways. Where a way arrives at a vertex it goes on with the next side clockwise, so that
 //! what it encloses lies on its left; which planes are active there is asked at a point inside. Nothing depends on
-//! which curve a side is part of: curves that coincide are one side, and vertices that coincide are one.
+//! which curve a side is part of: curves that coincide are one side, and vertices that coincide are one. What lies
+//! between them counts by the second power.
 
-use super::network::{Network, Side};
-
-/// Vertices nearer to each other than this part of the patch are one, as are the middles of two sides between the
-/// same vertices: what lies between counts by the second power.
-const SAME: f64 = 1e-6;
+use super::network::{Network, SAME, Side};
 
 /// Area over that of the patch from which on a face counts.
 const LEAST_AREA: f64 = 1e-12;

@@ -21,11 +21,9 @@ const OFF_CENTRE: f64 = 0.25;
 /// Most such starts.
 const MOST_STARTS: usize = 3;
 
-/// Least tolerance for which a patch is taken in pieces: the rules of their zones have no more points for a finer one.
-const FINEST_OF_PIECES: f64 = 1e-8;
-
-/// Least tolerance for which it is taken in cells: the sides of those are parabolas, which stray from the curves.
-const FINEST_OF_CELLS: f64 = 1e-5;
+/// Least tolerance for which a patch is taken in zones or cells: the rules of zones have no more points for a finer one,
+/// and a parabola strays from its curve.
+const FINEST_OF_CELLS: f64 = 1e-8;
 
 /// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of
 /// bodies with many planes they mostly end in vain.
@@ -129,7 +127,7 @@ struct Parts<'p, 'f, 'a, 's> {
 
 impl<'a, 's> Parts<'_, '_, 'a, 's> {
     fn is_asked(&self) -> bool {
-        !self.task.settings.with_energy && self.tolerance >= FINEST_OF_PIECES
+        !self.task.settings.with_energy && self.tolerance >= FINEST_OF_CELLS
     }
 
     /// In zones that need no search.
@@ -144,7 +142,7 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
 
     /// In the cells of the network.
     fn cells(&mut self, scratch: &mut CellScratch) -> Option<Outcome> {
-        if !self.is_asked() || self.task.settings.tolerance < FINEST_OF_CELLS {
+        if !self.is_asked() {
             return None;
         }
         let axis = flattest_axis(self.field);
@@ -337,7 +335,7 @@ impl Summary {
         let mut lever = 0.0;
         for node @ Node { x: [x, y, z], pressure, .. } in points {
             let (p, q) = (a * x + b * y + c * z - along, d * x + e * y + f * z - aside);
-            lever += node.area() * pressure * p.hypot(q);
+            lever += node.area() * pressure * (p * p + q * q).sqrt();
         }
         let patch = &mut self.patch;
         let branch = frame * pole;

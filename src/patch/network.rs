@@ -17,8 +17,8 @@ const HALF_TURN: f64 = 0.6;
 /// Distance from a side over its length within which a place counts as on it.
 const ON_CURVE: f64 = 1e-2;
 
-/// Relative distance within which two walks meet the same vertex.
-const SAME: f64 = 1e-6;
+/// Distance over that from the origin within which two walks meet the same vertex.
+pub(super) const SAME: f64 = 1e-6;
 
 /// What one arc may be off, over the tolerance: of the area, and of the load.
 const OF_AREA: f64 = 1.0;

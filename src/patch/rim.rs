@@ -84,7 +84,7 @@ impl RimPoint {
         let towards = self.crossing(other).or_else(|| {
             // After half a turn the tangents are parallel.
             let ([a, b], [c, d]) = (self.tangent, other.tangent);
-            (a * c + b * d < 0.0).then(|| [length * (a - c), length * (b - d)])
+            (a * c + b * d < 0.0).then_some([length * (a - c), length * (b - d)])
         });
         if let Some([u, v]) = towards.filter(|[u, v]| u * out[0] + v * out[1] > 0.0) {
             let far = length_of([u, v]);

@@ -7,6 +7,9 @@ use potential_particles::{
     Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Triangle, Wall, patch_of_contact,
 };
 
+/// A tolerance for which rays alone serve.
+const BY_RAYS: f64 = 5e-9;
+
 /// The patch at a tolerance.
 type Taken = Box<dyn Fn(f64) -> Patch>;
 
@@ -101,7 +104,7 @@ fn cells_are_as_rays() {
     let (mut in_cells, mut above, mut far, mut estimated, mut compared) = (0, 0, 0, 0, 0);
     for round in 0..rounds {
         let Some(taken) = taken(round, &mut chance) else { continue };
-        let (found, exact) = (taken(1e-4), taken(1e-7));
+        let (found, exact) = (taken(1e-4), taken(BY_RAYS));
         if !is_whole(&found) || !is_whole(&exact) {
             continue;
         }
@@ -132,7 +135,7 @@ fn coarse_patches_are_within_their_tolerance() {
     let (mut compared, mut above, mut far, mut estimated) = (0, 0, 0, 0);
     for round in 0..rounds {
         let Some(taken) = taken(round, &mut chance) else { continue };
-        let exact = taken(1e-6);
+        let exact = taken(BY_RAYS);
         if !is_whole(&exact) {
             continue;
         }

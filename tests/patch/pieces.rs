@@ -65,7 +65,7 @@ fn pieces_are_as_the_fan() {
             }
             let off = errors(&found, &exact);
             count += 1;
-            over += usize::from(off[0] > found.error.max(0.1 * tolerance));
+            over += usize::from(off[0] > found.error.max(0.1 * tolerance) + exact.error);
             assert!(
                 off[0] < 1.5 * tolerance && off[1] < 1.5 * tolerance,
                 "{tolerance} {name}: {off:?}, {}",
