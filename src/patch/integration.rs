@@ -21,8 +21,8 @@ const OFF_CENTRE: f64 = 0.25;
 /// Most such starts.
 const MOST_STARTS: usize = 3;
 
-/// Least tolerance for which a patch is taken in zones or cells: the rules of zones have no more points for a finer one,
-/// and a parabola strays from its curve.
+/// Least tolerance for which a patch is taken in zones or cells: for a finer one the rules of zones have no points, and
+/// a parabola strays from its curve.
 const FINEST_OF_CELLS: f64 = 1e-8;
 
 /// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of
