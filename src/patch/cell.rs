@@ -105,6 +105,31 @@ pub(super) struct Cell {
     pub flat_incline: f64,
 }
 
+/// A triangle that holds the patch in a cell: its start, and two points at its end or beyond, one on the tangent at the
+/// start and one on the patch, which is convex or concave as far as it does not turn back.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Ahead {
+    h: f64,
+    on_tangent: f64,
+    on_patch: f64,
+}
+
+impl Ahead {
+    /// Whether a plane may go on or off: not where its excess has the same sign at all corners.
+    #[inline(always)]
+    pub fn may_meet(&self, plane: &RayPlane) -> bool {
+        let ahead = plane.excess + plane.along * self.h;
+        let corners = [plane.excess, ahead + plane.up * self.on_tangent, ahead + plane.up * self.on_patch];
+        !corners.iter().all(|excess| if plane.active { *excess > 0.0 } else { *excess < 0.0 })
+    }
+
+    /// As far as a place of the patch that is nearer.
+    #[inline(always)]
+    pub fn up_to(&self, h: f64, k: f64) -> Self {
+        if h > 0.0 && h < self.h { Self { h, on_tangent: self.on_tangent / self.h * h, on_patch: k } } else { *self }
+    }
+}
+
 /// Most steps of a search for the rim.
 const RIM_STEPS: usize = 50;
 
@@ -113,6 +138,9 @@ const TINY: f64 = 1e-13;
 
 /// Distance of two points of a patch over the radius about the start of the walk, at most.
 const FARTHEST: f64 = 2.0;
+
+/// How much farther than the rim seems to be at the start of a cell a triangle about the patch goes.
+const BEYOND_RIM: f64 = 1.25;
 
 /// A rim beyond so many times the size of the bodies is none.
 const FAR: f64 = 100.0;
@@ -238,6 +266,29 @@ impl Cell {
         -(plane.along + plane.up * self.incline(0.0, 0.0)) / plane.excess
     }
 
+    /// What lies ahead of the start, where the rim does not lie far beyond where it seems to; without it any plane may
+    /// be met.
+    pub fn ahead(&self, turn: f64) -> Option<Ahead> {
+        let h = BEYOND_RIM * self.rim_ahead();
+        if self.is_flat || !(h > 0.0 && h <= turn) {
+            return None;
+        }
+        let (k, _) = self.height(h)?;
+        let on_tangent = self.incline(0.0, 0.0) * h;
+        (self.s.value(h, k) >= 1.0).then_some(Ahead { h, on_tangent, on_patch: k })
+    }
+
+    /// The h where S would be 1 on the patch if it were a quadratic of h.
+    fn rim_ahead(&self) -> f64 {
+        let (s, d) = (&self.s, &self.d);
+        let incline = self.incline(0.0, 0.0);
+        let slope = s.h + s.k * incline;
+        let bend = -2.0 * (d.hh + incline * (d.hk + d.kk * incline)) / d.by_k(0.0, 0.0);
+        let half_curvature = s.hh + incline * (s.hk + s.kk * incline) + 0.5 * s.k * bend;
+        let value = s.v - 1.0;
+        -2.0 * value / (slope + (slope * slope - 4.0 * half_curvature * value).sqrt())
+    }
+
     /// The h up to `limit` where s = 1 on the patch; or, as an error, where the curve turns back before.
     pub fn rim(&self, limit: f64, farthest: f64) -> Result<f64, f64> {
         let (s, d) = (&self.s, &self.d);
@@ -247,15 +298,8 @@ impl Cell {
             let h = 2.0 * scale * (1.0 - scale) / (s.h + s.k * self.flat_incline);
             return Ok(if h > 0.0 { h.min(2.0 * FAR * farthest) } else { 2.0 * FAR * farthest }.min(limit));
         }
-        // The slope and curvature of S along the curve at the start.
-        let incline = self.incline(0.0, 0.0);
-        let slope = s.h + s.k * incline;
-        let bend = -2.0 * (d.hh + incline * (d.hk + d.kk * incline)) / d.by_k(0.0, 0.0);
-        let half_curvature = s.hh + incline * (s.hk + s.kk * incline) + 0.5 * s.k * bend;
-        let value = s.v - 1.0;
-        let root = (slope * slope - 4.0 * half_curvature * value).sqrt();
         let (mut inside, mut outside) = (0.0, limit);
-        let mut h = -2.0 * value / (slope + root);
+        let mut h = self.rim_ahead();
         if !(h > 0.0 && h <= limit && h.is_finite()) {
             h = if limit.is_finite() { limit } else { farthest };
         }

@@ -272,9 +272,9 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
 
     /// Where the way through a cell ends: at the nearest plane or edge, or on the rim.
     pub fn end_of(&self, cell: &Cell) -> CellEnd {
-        let ((h, k), next) = self.next_crossing(cell);
         // Beyond its turn the patch is no graph, and what is met there lies on another branch.
         let turn = cell.turn();
+        let ((h, k), next) = self.next_crossing(cell, turn);
         if next.is_some() && h <= turn && cell.s.value(h, k) < 1.0 {
             return CellEnd { h, k, next, is_folded: false };
         }
@@ -331,13 +331,18 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
     }
 
     /// The nearest place where a plane goes on or off, or an edge is met, and its plane.
-    fn next_crossing(&self, cell: &Cell) -> ((f64, f64), Option<usize>) {
+    fn next_crossing(&self, cell: &Cell, turn: f64) -> ((f64, f64), Option<usize>) {
         let mut next = ((f64::INFINITY, 0.0), None);
         let radius = self.field.radius();
+        let mut ahead = cell.ahead(turn);
         for (place, plane) in self.planes.iter().enumerate() {
+            if ahead.is_some_and(|ahead| !ahead.may_meet(plane)) {
+                continue;
+            }
             if let Some((h, k)) = cell.crossing(plane, radius) {
                 if h < next.0.0 {
                     next = ((h, k), Some(place));
+                    ahead = ahead.map(|ahead| ahead.up_to(h, k));
                 }
             }
         }
