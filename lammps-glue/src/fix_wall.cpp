@@ -145,6 +145,7 @@ void FixWall::post_force(int)
 {
     checkTimeStep();
     own[contacts] = own[elastic] = own[forceX] = own[forceY] = own[forceZ] = 0;
+    pressed.clear();
     // Where the time was set anew since, the wall stays where it is.
     const double time = timeNow(), jump = time - lastTime - (update->setupflag ? 0 : update->dt);
     if (std::abs(jump) > 0.5 * update->dt)
@@ -352,32 +353,39 @@ void FixWall::push(int i, const Vector3d& onWall, const Vector3d& torque, const 
         own[forceX + d] += onWall[d];
 }
 
+pp_status FixWall::findPatch(const Pressed& one, uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) const
+{
+    return one.triangle
+        ? pp_patch_on_triangle(one.particle, &one.pose, numbersOf(*one.triangle), one.fromFront, &one.found,
+                               patchTolerance, withEnergy, state, patch, nullptr, 0, nullptr)
+        : pp_patch_on_plane(one.particle, &one.pose, &one.found, patchTolerance, withEnergy, state, patch, nullptr, 0,
+                            nullptr);
+}
+
 // In world axes.
 std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch,
-                                            Known& contact, const pp_pose& pose) const
+                                            Known& contact, const pp_pose& pose)
 {
     const pp_flat_contact& found = touch.found;
-    const pp_particle* particle = shape.particle.get();
     if (!contact.patch)
-        contact.patch = std::make_shared<pp_patch_state>();
-    pp_patch patch;
-    pp_status status;
+        contact.patch = std::make_shared<KeptPatch>();
     const Triangle* const triangle = triangleOf(touch.element);
-    if (!triangle)
-        status = pp_patch_on_plane(particle, &pose, &found, patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0,
-                                   nullptr);
-    else {
+    bool fromFront = false;
+    if (triangle) {
         // The body stays on the side on which the contact began.
         const auto& [a, b, c] = *triangle;
         const Vector3d front = (b - a).cross(c - a);
         const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal
                                                             : Vector3d(found.normal);
-        status = pp_patch_on_triangle(particle, &pose, numbersOf(*triangle), towardsWall.dot(front) < 0, &found,
-                                      patchTolerance, 1, contact.patch.get(), &patch, nullptr, 0, nullptr);
+        fromFront = towardsWall.dot(front) < 0;
     }
+    const Pressed one { shape.particle.get(), pose, triangle, fromFront, found, contact.patch };
+    pp_patch patch;
+    const pp_status status = findPatch(one, 0, &contact.patch->ofForce, &patch);
     const Vector3d x(atom->x[i]);
     const Eigen::Matrix3d turn = frame.turn.toRotationMatrix();
     if (auto here = PatchInStep::of(status, patch)) {
+        pressed.push_back(one);
         here->point = x + turn * Vector3d(patch.branch_a);
         here->normal = turn * here->normal;
         here->patch.centroid = turn * here->patch.centroid;
@@ -385,7 +393,7 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
         return here;
     }
     double area = 0; // stays 0 where they overlap by nothing but rounding
-    pp_flat_contact_area(particle, &pose, &found, areaTolerance, &area);
+    pp_flat_contact_area(one.particle, &pose, &found, areaTolerance, &area);
     const Vector3d normal = turn * Vector3d(found.normal);
     return PatchInStep { ContactPatch::disc(area, found.overlap, normal), x + turn * Vector3d(found.branch), normal };
 }

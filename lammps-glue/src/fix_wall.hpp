@@ -13,6 +13,7 @@
 
 #include "plugin-common/point_law.hpp"
 #include "joint_step.hpp"
+#include "kept_patch.hpp"
 #include "mesh.hpp"
 
 #include "plugin-common/seam.hpp"
@@ -62,7 +63,16 @@ private:
         pp_pair_state state = {}; // since the last list of neighbours, so that all ranks and restarts have the same
         // Of contacts by patch.
         JointHistory joint = {};
-        std::shared_ptr<pp_patch_state> patch = {}; // as `state`
+        std::shared_ptr<KeptPatch> patch = {}; // as `state`
+    };
+    // A patch, in the wall's frame.
+    struct Pressed {
+        const pp_particle* particle;
+        pp_pose pose;
+        const Triangle* triangle; // none of a plane
+        bool fromFront;
+        pp_flat_contact found;
+        std::shared_ptr<KeptPatch> kept;
     };
     struct Asleep {
         int element;
@@ -115,7 +125,8 @@ private:
     void applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool advance, const Touched& touch,
                        Known& contact, const pp_pose& pose);
     std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch,
-                                       Known& contact, const pp_pose& pose) const;
+                                       Known& contact, const pp_pose& pose);
+    pp_status findPatch(const Pressed& one, uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) const;
     void push(int i, const Eigen::Vector3d& onWall, const Eigen::Vector3d& torque, const JointEnergies& energies);
     double mark() const; // of planes and triangles
     std::array<double, 10> motion() const;
@@ -147,6 +158,7 @@ private:
     std::vector<Known> now;
     std::vector<Touched> touched;
     std::vector<int> slotOf; // in `now`, of each that touches
+    std::vector<Pressed> pressed; // patches of the step whose energies are not in `own`
     double own[sums] = {};
 };
 

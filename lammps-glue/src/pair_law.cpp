@@ -115,14 +115,18 @@ std::optional<PatchInStep> PairPotentialParticle::patchOf(int slot)
     if (found.kind != PP_OVERLAPPING)
         return {};
     const auto [a, b] = bodies[slot];
-    auto& state = patches[slot];
-    if (!state)
-        state = std::make_unique<pp_patch_state>();
+    auto& kept = patches[slot];
+    if (!kept)
+        kept = std::make_unique<KeptPatch>();
+    const auto find = [&, a = a, b = b](uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) {
+        return pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found, patchTolerance, withEnergy,
+                                   state, patch, nullptr, 0, nullptr);
+    };
     pp_patch patch;
-    const pp_status status = pp_patch_of_contact(particles[a], &poses[a], particles[b], &poses[b], &found,
-                                                 patchTolerance, 1, state.get(), &patch, nullptr, 0, nullptr);
-    if (auto here = PatchInStep::of(status, patch))
+    if (auto here = PatchInStep::of(find(0, &kept->ofForce, &patch), patch)) {
+        here->patch.energy = eflag_either ? kept->energy(find) : 0;
         return here;
+    }
     pvector[fallbacks] += static_cast<int>(a) < local && static_cast<int>(b) < local ? 1.0 : 0.5;
     double area = 0; // stays 0 for bodies that overlap by nothing but rounding: no point lies in both
     pp_contact_area(particles[a], &poses[a], particles[b], &poses[b], &found, areaTolerance, &area);

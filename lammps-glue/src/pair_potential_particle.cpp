@@ -413,7 +413,7 @@ double PairPotentialParticle::memory_usage()
         + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states) + bytes(answers) + bytes(histories)
         + bytes(statuses) + bytes(joints) + bytes(patches)
         + static_cast<double>(std::count_if(patches.begin(), patches.end(), [](const auto& one) { return !!one; })
-                              * sizeof(pp_patch_state));
+                              * sizeof(KeptPatch));
 }
 
 } // namespace potential_particles

@@ -14,6 +14,7 @@
 #include "plugin-common/point_law.hpp"
 #include "contact_memory.hpp"
 #include "joint_step.hpp"
+#include "kept_patch.hpp"
 #include "mark.hpp"
 
 #include "pair.h"
@@ -138,8 +139,8 @@ private:
     std::vector<pp_contact> answers;
     std::vector<ContactHistory> histories; // empty, if contacts act on patches
     std::vector<JointHistory> joints; // empty, if they do not
-    std::vector<std::unique_ptr<pp_patch_state>>
-        patches; // the same; since the last list of neighbours, so that all ranks and restarts have the same
+    // The same; since the last list of neighbours, so that all ranks and restarts have the same.
+    std::vector<std::unique_ptr<KeptPatch>> patches;
     LAMMPS_NS::bigint atomsAtBuild = 0;
     std::vector<pp_status> statuses;
     double failures = 0;

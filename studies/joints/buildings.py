@@ -170,4 +170,30 @@ def pushed_arch():
     return _row(arch(), below=0.02)
 
 
-ROWS = {row.__name__: row for row in (pushed_wall, pushed_portal, pushed_tower, pushed_arch)}
+def running_bond(courses=6, bricks=4):
+    """Bricks in a running bond with closed head joints, under their own weight: of the bed joints of a course the sum
+    of the vertical forces over the weight above, the worst course; and the speed, m/s.
+    """
+    fresh(damping=0.5, normalStiffness=K, shearStiffness=K / 2, frictionAngle=math.atan(FRICTION), restitution=0.3)
+    courses_of = {O.bodies.append(
+        potential_particles.body(Building.shape(brick(-0.2, -0.2, 0.4 * bricks + 0.4, width=0.4)), fixed=True)): -1}
+    for course in range(courses):
+        ends = np.unique(np.clip(0.4 * np.arange(bricks + 2) - 0.2 * (course % 2), 0, 0.4 * bricks))
+        for x, end in zip(ends, ends[1:]):
+            stone = potential_particles.body(Building.shape(brick(x, 0.2 * course, end - x)), color=(0.7, 0.45, 0.35))
+            courses_of[O.bodies.append(stone)] = course
+    O.dt = STEP
+    run(1.0)
+    beds, weights = np.zeros(courses), np.zeros(courses)
+    for contact in O.interactions:
+        below, above = sorted((contact.id1, contact.id2), key=courses_of.get)
+        if contact.isReal and courses_of[below] < courses_of[above]:
+            force = (contact.phys.normalForce + contact.phys.shearForce)[2]
+            beds[courses_of[above]] += force if contact.id2 == above else -force
+    for body, course in courses_of.items():
+        weights[:course + 1] += O.bodies[body].state.mass * GRAVITY
+    return {"value": float(np.abs(beds / weights - 1).max()), "target": 1e-6, "speed": fastest(), "speed_target": RESTS,
+            "beds": list(beds), "weights": list(weights)}
+
+
+ROWS = {row.__name__: row for row in (running_bond, pushed_wall, pushed_portal, pushed_tower, pushed_arch)}

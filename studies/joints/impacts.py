@@ -5,7 +5,7 @@ import time
 
 import potential_particles
 from potential_particles import shapes
-from scene import O, add, block_shape, fresh, kinetic_energy, wall
+from scene import TOLERANCE, O, add, block_shape, fresh, kinetic_energy, wall
 from yade import PyRunner, Quaternion, Vector3
 
 IMPACTS, FEW = 200, 50
@@ -67,7 +67,7 @@ class Drift:
         return abs(self.last - 1 - self.by_impacts)
 
 
-def drift(make, step=1.0, tolerance=1e-4, impacts=IMPACTS):
+def drift(make, step=1.0, tolerance=TOLERANCE, impacts=IMPACTS):
     """Largest sum of what impacts changed the energy of two bodies in a box of walls by, relative; and what free flight
     did. `step` is a share of the default one.
     """

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scenes of blocks with the law of joints, or with YADE's law at one point a contact."""
+import os
 import time
 
 import potential_particles
@@ -7,6 +8,8 @@ import yade
 from yade import Body, Omega, Quaternion, Vector3, utils
 
 O = Omega()
+# Of patches, where a row asks for no other.
+TOLERANCE = float(os.environ.get("TOLERANCE") or 1e-4)
 
 
 def block_shape(size, r=0.005, k=0.0):
@@ -16,7 +19,7 @@ def block_shape(size, r=0.005, k=0.0):
     return yade.ConicPotentialParticle(planes=planes, r=r, k=k, R=1.2 * Vector3(*size).norm() / 2)
 
 
-def fresh(patch=True, gravity=(0, 0, -9.81), damping=0.0, track=False, tolerance=1e-4, **material):
+def fresh(patch=True, gravity=(0, 0, -9.81), damping=0.0, track=False, tolerance=TOLERANCE, **material):
     """Empties the scene; with patch=False the law is YADE's of springs at a point, of the same material."""
     O.reset()
     if patch:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """In YADE: blocks with joints, carried over by to_lammps, and where they are after some steps: yade -x
-yade_patch_scene.py FOLDER HALVINGS TOLERANCE.
+yade_patch_scene.py FOLDER HALVINGS.
 """
 import math
 import sys
@@ -11,7 +11,7 @@ import yade
 from potential_particles import shapes
 from yade import O
 
-folder, halvings, tolerance = sys.argv[-3], int(sys.argv[-2]), float(sys.argv[-1])
+folder, halvings = sys.argv[-2], int(sys.argv[-1])
 DT, STEPS = 2e-5 / 2**halvings, 250 * 2**halvings
 O.materials.append(
     yade.ConicJointMat(normalStiffness=1e9, shearStiffness=5e8, frictionAngle=math.atan(0.4), restitution=0.4,
@@ -30,8 +30,8 @@ O.engines = [
     yade.ForceResetter(),
     yade.InsertionSortCollider([yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb()]),
     yade.InteractionLoop([
-        yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, patchTolerance=tolerance),
-        yade.Ig2_Wall_ConicPP_ScGeom(patch=True, patchTolerance=tolerance)
+        yade.Ig2_ConicPP_ConicPP_ScGeom(patch=True, patchTolerance=1e-7),
+        yade.Ig2_Wall_ConicPP_ScGeom(patch=True, patchTolerance=1e-7)
     ], [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys(bonds=True)], [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
     yade.NewtonIntegrator(damping=0, gravity=(0, 0, -9.81), exactAsphericalRot=True),
 ]
