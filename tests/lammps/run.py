@@ -2,11 +2,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The LAMMPS plugin against a loop in Python, closed forms, itself on several ranks, and bad input.
 
-    tests/lammps/run.py [--all] [--times] [NAME ...]      (NAME: part of the name of a test)
-
-Without names the tests that are not marked `long`, or, with --all, all. Needs `scripts/lammps_setup.sh`, and cc for one
-test. The last line is 'N passed, N failed'; exit status 1 if anything failed. --times: with the processor time of each.
+Needs `scripts/lammps_setup.sh`, and cc for one test. The last line is 'N passed, N failed'; exit status 1 if anything
+failed.
 """
+import argparse
 import inspect
 import os
 import resource
@@ -30,14 +29,21 @@ import test_seams
 import test_walls
 
 
-def chosen(arguments):
-    names, found = [a for a in arguments if not a.startswith("--")], []
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("names", nargs="*", metavar="NAME", help="part of the name of a test")
+    parser.add_argument("--all", action="store_true", help="without names: those that take long, too")
+    parser.add_argument("--times", action="store_true", help="the processor time of each")
+    return parser.parse_args()
+
+
+def chosen(names, with_long):
+    found = []
     for module in (test_patch, test_motion, test_ranks, test_walls, test_seams, test_remembered, test_entered,
                    test_input, test_examples):
         for name, test in inspect.getmembers(module, inspect.isfunction):
             if name.startswith("test_") and test.__module__ == module.__name__:
-                if any(part in name
-                       for part in names) or not names and ("--all" in arguments or not hasattr(test, "long")):
+                if any(part in name for part in names) or not names and (with_long or not hasattr(test, "long")):
                     found.append(test)
     return found
 
@@ -56,7 +62,8 @@ def tried(test):
 
 
 if __name__ == "__main__":
-    tests = chosen(sys.argv[1:])
+    asked = arguments()
+    tests = chosen(asked.names, asked.all)
     failed, total = 0, 0.0
     with ProcessPoolExecutor(max_workers=min(2, len(os.sched_getaffinity(0)))) as pool:
         for test, (failure, seconds) in zip(tests, pool.map(tried, tests)):
@@ -64,9 +71,9 @@ if __name__ == "__main__":
             total += seconds
             if failure:
                 print(failure, flush=True)
-            if "--times" in sys.argv:
+            if asked.times:
                 print(f"{seconds:6.1f} s  {test.__module__}.{test.__name__}", flush=True)
-    if "--times" in sys.argv:
+    if asked.times:
         print(f"{total:6.1f} s of processor time")
     print(f"{len(tests) - failed} passed, {failed} failed")
     sys.exit(failed > 0 or not tests)
