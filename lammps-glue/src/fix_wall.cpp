@@ -145,7 +145,7 @@ void FixWall::post_force(int)
 {
     checkTimeStep();
     own[contacts] = own[elastic] = own[forceX] = own[forceY] = own[forceZ] = 0;
-    pressed.clear();
+    withoutEnergy.clear();
     // Where the time was set anew since, the wall stays where it is.
     const double time = timeNow(), jump = time - lastTime - (update->setupflag ? 0 : update->dt);
     if (std::abs(jump) > 0.5 * update->dt)
@@ -353,7 +353,7 @@ void FixWall::push(int i, const Vector3d& onWall, const Vector3d& torque, const 
         own[forceX + d] += onWall[d];
 }
 
-pp_status FixWall::findPatch(const Pressed& one, uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) const
+pp_status FixWall::findPatch(const WallPatch& one, uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) const
 {
     return one.triangle
         ? pp_patch_on_triangle(one.particle, &one.pose, numbersOf(*one.triangle), one.fromFront, &one.found,
@@ -379,13 +379,13 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
                                                             : Vector3d(found.normal);
         fromFront = towardsWall.dot(front) < 0;
     }
-    const Pressed one { shape.particle.get(), pose, triangle, fromFront, found, contact.patch };
+    WallPatch one { shape.particle.get(), pose, triangle, fromFront, found, contact.patch };
     pp_patch patch;
     const pp_status status = findPatch(one, 0, &contact.patch->ofForce, &patch);
     const Vector3d x(atom->x[i]);
     const Eigen::Matrix3d turn = frame.turn.toRotationMatrix();
     if (auto here = PatchInStep::of(status, patch)) {
-        pressed.push_back(one);
+        withoutEnergy.push_back(std::move(one));
         here->point = x + turn * Vector3d(patch.branch_a);
         here->normal = turn * here->normal;
         here->patch.centroid = turn * here->patch.centroid;

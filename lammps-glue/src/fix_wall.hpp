@@ -65,8 +65,8 @@ private:
         JointHistory joint = {};
         std::shared_ptr<KeptPatch> patch = {}; // as `state`
     };
-    // A patch, in the wall's frame.
-    struct Pressed {
+    // The arguments with which the library finds a patch, in the wall's frame.
+    struct WallPatch {
         const pp_particle* particle;
         pp_pose pose;
         const Triangle* triangle; // none of a plane
@@ -126,7 +126,7 @@ private:
                        Known& contact, const pp_pose& pose);
     std::optional<PatchInStep> patchOn(int i, const Shape& shape, const Frame& frame, const Touched& touch,
                                        Known& contact, const pp_pose& pose);
-    pp_status findPatch(const Pressed& one, uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) const;
+    pp_status findPatch(const WallPatch& one, uint32_t withEnergy, pp_patch_state* state, pp_patch* patch) const;
     void push(int i, const Eigen::Vector3d& onWall, const Eigen::Vector3d& torque, const JointEnergies& energies);
     double mark() const; // of planes and triangles
     std::array<double, 10> motion() const;
@@ -158,7 +158,7 @@ private:
     std::vector<Known> now;
     std::vector<Touched> touched;
     std::vector<int> slotOf; // in `now`, of each that touches
-    std::vector<Pressed> pressed; // patches of the step whose energies are not in `own`
+    std::vector<WallPatch> withoutEnergy; // patches of the step whose energies are not in `own` yet
     double own[sums] = {};
 };
 

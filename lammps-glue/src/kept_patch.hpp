@@ -23,6 +23,8 @@ struct KeptPatch {
         pp_patch patch;
         return find(1, ofEnergy.get(), &patch) == PP_OK && patch.energy > 0 ? patch.energy : 0.0;
     }
+
+    double bytes() const { return sizeof(*this) + (ofEnergy ? sizeof(*ofEnergy) : 0); }
 };
 
 } // namespace potential_particles

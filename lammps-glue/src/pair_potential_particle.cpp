@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 using namespace LAMMPS_NS;
 using Eigen::Vector3d;
@@ -412,8 +413,8 @@ double PairPotentialParticle::memory_usage()
     return Pair::memory_usage() + bytes(tags) + bytes(particles) + bytes(radii) + bytes(ways) + bytes(poses)
         + bytes(last) + bytes(held) + bytes(far) + bytes(bodies) + bytes(states) + bytes(answers) + bytes(histories)
         + bytes(statuses) + bytes(joints) + bytes(patches)
-        + static_cast<double>(std::count_if(patches.begin(), patches.end(), [](const auto& one) { return !!one; })
-                              * sizeof(KeptPatch));
+        + std::accumulate(patches.begin(), patches.end(), 0.0,
+                          [](double sum, const auto& one) { return sum + (one ? one->bytes() : 0); });
 }
 
 } // namespace potential_particles

@@ -32,10 +32,10 @@ int FixWall::touching(int i) const
 double FixWall::compute_vector(int n)
 {
     if (n == elastic) {
-        for (const Pressed& one : pressed)
+        for (const WallPatch& one : withoutEnergy)
             own[elastic] += joint.normalStiffness
                 * one.kept->energy([&](auto... how) { return findPatch(one, how...); });
-        pressed.clear();
+        withoutEnergy.clear();
     }
     double all = 0;
     MPI_Allreduce(&own[n], &all, 1, MPI_DOUBLE, MPI_SUM, world);

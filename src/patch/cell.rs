@@ -105,27 +105,28 @@ pub(super) struct Cell {
     pub flat_incline: f64,
 }
 
-/// A triangle that holds the patch in a cell: its start, and two points at its end or beyond, one on the tangent at the
-/// start and one on the patch, which is convex or concave as far as it does not turn back.
+/// A triangle around the conic arc of the patch in a cell. Up to where it turns back the arc is convex or concave, and
+/// lies between its tangent at the start and its chord: the corners are the start (0, 0), the point of the tangent at h
+/// and the point of the arc at h.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Ahead {
+pub(super) struct BoundingTriangle {
     h: f64,
     on_tangent: f64,
     on_patch: f64,
 }
 
-impl Ahead {
-    /// Whether a plane may go on or off: not where its excess has the same sign at all corners.
+impl BoundingTriangle {
+    /// Whether a plane may go on or off: not where its excess, which is linear, has one sign at all corners.
     #[inline(always)]
-    pub fn may_meet(&self, plane: &RayPlane) -> bool {
+    pub fn may_cross(&self, plane: &RayPlane) -> bool {
         let ahead = plane.excess + plane.along * self.h;
         let corners = [plane.excess, ahead + plane.up * self.on_tangent, ahead + plane.up * self.on_patch];
         !corners.iter().all(|excess| if plane.active { *excess > 0.0 } else { *excess < 0.0 })
     }
 
-    /// As far as a place of the patch that is nearer.
+    /// The triangle that ends at a nearer point of the arc.
     #[inline(always)]
-    pub fn up_to(&self, h: f64, k: f64) -> Self {
+    pub fn cut_at(&self, h: f64, k: f64) -> Self {
         if h > 0.0 && h < self.h { Self { h, on_tangent: self.on_tangent / self.h * h, on_patch: k } } else { *self }
     }
 }
@@ -139,7 +140,7 @@ const TINY: f64 = 1e-13;
 /// Distance of two points of a patch over the radius about the start of the walk, at most.
 const FARTHEST: f64 = 2.0;
 
-/// How much farther than the rim seems to be at the start of a cell a triangle about the patch goes.
+/// Length of a bounding triangle over the estimated distance of the rim.
 const BEYOND_RIM: f64 = 1.25;
 
 /// A rim beyond so many times the size of the bodies is none.
@@ -266,20 +267,23 @@ impl Cell {
         -(plane.along + plane.up * self.incline(0.0, 0.0)) / plane.excess
     }
 
-    /// What lies ahead of the start, where the rim does not lie far beyond where it seems to; without it any plane may
-    /// be met.
-    pub fn ahead(&self, turn: f64) -> Option<Ahead> {
-        let h = BEYOND_RIM * self.rim_ahead();
-        if self.is_flat || !(h > 0.0 && h <= turn) {
+    /// Around the arc from the start to beyond the rim. `None` where the patch is flat, for which it saves nothing, or
+    /// where the estimate of the rim falls short or lies behind the turn.
+    pub fn bounding_triangle(&self, turn: f64) -> Option<BoundingTriangle> {
+        if self.is_flat {
+            return None;
+        }
+        let h = BEYOND_RIM * self.estimated_rim();
+        if !(h > 0.0 && h <= turn) {
             return None;
         }
         let (k, _) = self.height(h)?;
         let on_tangent = self.incline(0.0, 0.0) * h;
-        (self.s.value(h, k) >= 1.0).then_some(Ahead { h, on_tangent, on_patch: k })
+        (self.s.value(h, k) >= 1.0).then_some(BoundingTriangle { h, on_tangent, on_patch: k })
     }
 
-    /// The h where S would be 1 on the patch if it were a quadratic of h.
-    fn rim_ahead(&self) -> f64 {
+    /// The h at which the Taylor series of S along the patch, to second order in h, is 1.
+    fn estimated_rim(&self) -> f64 {
         let (s, d) = (&self.s, &self.d);
         let incline = self.incline(0.0, 0.0);
         let slope = s.h + s.k * incline;
@@ -299,7 +303,7 @@ impl Cell {
             return Ok(if h > 0.0 { h.min(2.0 * FAR * farthest) } else { 2.0 * FAR * farthest }.min(limit));
         }
         let (mut inside, mut outside) = (0.0, limit);
-        let mut h = self.rim_ahead();
+        let mut h = self.estimated_rim();
         if !(h > 0.0 && h <= limit && h.is_finite()) {
             h = if limit.is_finite() { limit } else { farthest };
         }

@@ -21,9 +21,9 @@ const OFF_CENTRE: f64 = 0.25;
 /// Most such starts.
 const MOST_STARTS: usize = 3;
 
-/// Least tolerance for which a patch is taken in zones or cells: for a finer one the rules of zones have no points, and
-/// a parabola strays from its curve.
-const FINEST_OF_CELLS: f64 = 1e-8;
+/// Least tolerance of zones and cells: zones have no rules of higher degree, and the parabolas that bound cells are not
+/// refined any further.
+const FINEST_OF_PARTS: f64 = 1e-8;
 
 /// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of
 /// bodies with many planes they mostly end in vain.
@@ -127,7 +127,7 @@ struct Parts<'p, 'f, 'a, 's> {
 
 impl<'a, 's> Parts<'_, '_, 'a, 's> {
     fn is_asked(&self) -> bool {
-        !self.task.settings.with_energy && self.tolerance >= FINEST_OF_CELLS
+        !self.task.settings.with_energy && self.tolerance >= FINEST_OF_PARTS
     }
 
     /// In zones that need no search.

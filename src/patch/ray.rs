@@ -334,15 +334,15 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
     fn next_crossing(&self, cell: &Cell, turn: f64) -> ((f64, f64), Option<usize>) {
         let mut next = ((f64::INFINITY, 0.0), None);
         let radius = self.field.radius();
-        let mut ahead = cell.ahead(turn);
+        let mut bounds = cell.bounding_triangle(turn);
         for (place, plane) in self.planes.iter().enumerate() {
-            if ahead.is_some_and(|ahead| !ahead.may_meet(plane)) {
+            if bounds.is_some_and(|triangle| !triangle.may_cross(plane)) {
                 continue;
             }
             if let Some((h, k)) = cell.crossing(plane, radius) {
                 if h < next.0.0 {
                     next = ((h, k), Some(place));
-                    ahead = ahead.map(|ahead| ahead.up_to(h, k));
+                    bounds = bounds.map(|triangle| triangle.cut_at(h, k));
                 }
             }
         }

@@ -190,7 +190,7 @@ def running_bond(courses=6, bricks=4):
         if contact.isReal and courses_of[below] < courses_of[above]:
             force = (contact.phys.normalForce + contact.phys.shearForce)[2]
             beds[courses_of[above]] += force if contact.id2 == above else -force
-    for body, course in courses_of.items():
+    for body, course in courses_of.items():  # the ground is course -1, and adds to none
         weights[:course + 1] += O.bodies[body].state.mass * GRAVITY
     return {"value": float(np.abs(beds / weights - 1).max()), "target": 1e-6, "speed": fastest(), "speed_target": RESTS,
             "beds": list(beds), "weights": list(weights)}

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of rows: each draws what its row returned into a file."""
+"""Pictures of rows, drawn into files."""
 import math
 
 import matplotlib
+import potential_particles
 
 matplotlib.use("Agg")
 from matplotlib import pyplot  # noqa: E402
@@ -58,4 +59,11 @@ def _save(figure, path):
     pyplot.close(figure)
 
 
+def running_bond(path):
+    """The pressure in the joints of the wall in the scene."""
+    potential_particles.plot(str(path), patches=True, towards=(0.4, -1, 0.35), size=(1000, 640))
+
+
+# Of what a row returned, and of the scene that it left.
 OF_ROWS = {"housner": housner}
+OF_SCENES = {"running_bond": running_bond}

@@ -17,7 +17,6 @@ import cost  # noqa: E402
 import impacts  # noqa: E402
 import pictures  # noqa: E402
 import piles  # noqa: E402
-import potential_particles  # noqa: E402
 import rows  # noqa: E402
 from summary import print_table, write_summary  # noqa: E402
 
@@ -48,9 +47,8 @@ def main():
     for name in chosen:
         found[name] = ROWS[name]()
         print(f"{name}: {found[name]}", flush=True)
-        if name == "running_bond":
-            potential_particles.plot(str(folder / "running_bond.png"), patches=True, towards=(0.4, -1, 0.35),
-                                     size=(1000, 640))
+        if name in pictures.OF_SCENES:
+            pictures.OF_SCENES[name](folder / f"{name}.png")
     listed = [target for name, row in found.items() for target in targets(name, row)]
     write_summary(folder / "summary.json", {"rows": found, "targets": listed})
     pictures.all_rows([entry for entry in listed if entry["sense"] == "at most"], folder / "joints.png")
