@@ -44,7 +44,7 @@ impl Faces {
     ) -> Option<()> {
         let size =
             network.vertices.iter().flat_map(|vertex| [vertex.x[0].abs(), vertex.x[1].abs()]).fold(0.0, f64::max);
-        self.unite(network, is_split, SAME * size);
+        self.unite(network, is_split, SAME * size)?;
         let vertices = self.link(network);
         self.is_done.clear();
         self.is_done.resize(self.next.len(), false);
@@ -74,8 +74,8 @@ impl Faces {
         (outer == 1 && vertices + faces == self.sides.len() + 2).then_some(())
     }
 
-    /// Finds vertices and sides that are the same.
-    fn unite(&mut self, network: &Network, is_split: bool, near: f64) {
+    /// Finds vertices and sides that are the same; `None` where the sides make no planar graph.
+    fn unite(&mut self, network: &Network, is_split: bool, near: f64) -> Option<()> {
         let Network { vertices, sides, .. } = network;
         let Self { same, by_u, .. } = self;
         same.clear();
@@ -98,7 +98,7 @@ impl Faces {
             }
         }
         if is_split {
-            self.split(network, near);
+            self.split(network, near)?;
         }
         let order = |side: &Side| [side.ends[0].min(side.ends[1]), side.ends[0].max(side.ends[1])];
         self.sides.sort_unstable_by_key(order);
@@ -110,27 +110,34 @@ impl Faces {
             (x * (v - a[1]) - y * (u - a[0])) / (x * x + y * y).sqrt()
         };
         self.sides.dedup_by(|b, a| order(a) == order(b) && (off(a) - off(b)).abs() <= near);
+        Some(())
     }
 
-    /// Splits sides at the vertices that lie on them.
-    fn split(&mut self, network: &Network, near: f64) {
+    /// Splits sides at the vertices that lie on them and farther than `near` from both ends; `None` where that does not
+    /// end.
+    fn split(&mut self, network: &Network, near: f64) -> Option<()> {
+        // A planar graph has fewer than three sides a vertex.
+        let most = self.sides.len() + 3 * network.vertices.len();
         let mut place = 0;
         while place < self.sides.len() {
             let side = self.sides[place];
+            let length = network.length(&side);
             let on_it = self.by_u.iter().copied().filter(|i| self.same[*i as usize] == *i && !side.ends.contains(i));
             let on_it = on_it.filter_map(|i| {
                 let (off, t) = network.off(&side, &network.vertices[i as usize].x);
-                (off <= near && t > 0.0 && t < 1.0).then_some((i, t))
+                (off <= near && t.min(1.0 - t) * length > near).then_some((i, t))
             });
             match on_it.into_iter().next() {
                 Some((vertex, t)) => {
                     let [first, second] = network.halves(&side, t, vertex);
                     self.sides[place] = first;
                     self.sides.push(second);
+                    (self.sides.len() <= most).then_some(())?;
                 }
                 None => place += 1,
             }
         }
+        Some(())
     }
 
     /// Finds the way that follows each; the number of vertices.

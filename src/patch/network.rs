@@ -254,7 +254,7 @@ impl Network {
         self.again.is_empty()
     }
 
-    fn length(&self, side: &Side) -> f64 {
+    pub fn length(&self, side: &Side) -> f64 {
         let [p, q] = side.ends.map(|end| self.vertices[end as usize].x);
         ((q[0] - p[0]).powi(2) + (q[1] - p[1]).powi(2)).sqrt()
     }

@@ -2,7 +2,11 @@
 
 use crate::bodies::{Chance, contact, cuboid};
 use crate::brute::{brute, frame_of};
-use potential_particles::{Particle, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Pose, patch_of_contact};
+use nalgebra::{Rotation3, Vector3};
+use potential_particles::{
+    Particle, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Plane, Pose, patch_of_contact,
+};
+use std::f64::consts::TAU;
 
 /// Checks the patch of a pair; whether it was compared.
 fn compare(what: &str, a: (&Particle, &Pose), b: (&Particle, &Pose), tolerance: f64) -> bool {
@@ -86,6 +90,51 @@ fn aligned_boxes_are_what_brute_force_says() {
         }
     }
     assert!(compared > 10, "{compared}");
+}
+
+/// Two stones of `sides` sides whose joint is z = 0: their sides meet on its edges, at an angle.
+fn stones(r: f64, sides: usize, taper: f64, spin: f64) -> [Particle; 2] {
+    [1.0, -1.0].map(|sign| {
+        let side = |i: usize| {
+            let (sin, cos) = (spin + TAU * i as f64 / sides as f64).sin_cos();
+            let normal = Vector3::new(cos, sin, sign * taper).normalize();
+            Plane { normal, offset: 0.4 * normal.xy().norm() + 0.3 * normal.z * sign - r }
+        };
+        let ends = [1.0, -1.0].map(|way| Plane { normal: way * Vector3::z(), offset: 0.3 - r });
+        Particle::new(&(0..sides).map(side).chain(ends).collect::<Vec<_>>(), r, 0.0, 1.2).unwrap()
+    })
+}
+
+/// Moved and turned against each other by parts of r down to 1e-12; of the first pair three vertices of the network lie
+/// within the distance at which two count as one.
+#[test]
+fn stones_of_an_arch_are_what_brute_force_says() {
+    let mut chance = Chance::new(51);
+    let mut compared = 0;
+    for round in 0..=rounds() / 4 {
+        let (shape, at, turn) = if round == 0 {
+            (
+                (0.00315187356156772, 6, 0.12446843452575171, 5.802831224267658),
+                [2.7288489169095042e-9, 1.4724767155880222e-9, 0.2999369625287686],
+                Vector3::new(2.3348253931380725e-6, 2.0691435559796427e-6, -4.4889971336556726e-7),
+            )
+        } else {
+            let r = 10f64.powf(-3.0 + 1.5 * chance.uniform());
+            let (taper, spin) = (0.3 * chance.uniform() * chance.pick(&[1.0, -1.0]), TAU * chance.uniform());
+            let off = r * chance.pick(&[0.0, 1e-9, 1e-6, 1e-3]);
+            let at = [off * chance.uniform(), off * chance.uniform(), 0.3 - r * chance.pick(&[1e-3, 0.02, 0.2])];
+            let turn = chance.pick(&[0.0, 1e-12, 1e-6, 1e-3]) * r * chance.direction();
+            ((r, 4 + (5.0 * chance.uniform()) as usize, taper, spin), at, turn)
+        };
+        let [a, b] = stones(shape.0, shape.1, shape.2, shape.3);
+        let below = Pose::at([0.0, 0.0, -0.3]).unwrap();
+        let above = Pose::from_rotation(at, Rotation3::new(turn).matrix()).unwrap();
+        for tolerance in [1e-4, 1e-6] {
+            let what = format!("{round}: {shape:?} {at:?} {turn:?}");
+            compared += u64::from(compare(&what, (&a, &below), (&b, &above), tolerance));
+        }
+    }
+    assert!(compared > rounds() / 4, "{compared}");
 }
 
 /// PATCH_ROUNDS in the environment chooses another number.
