@@ -72,106 +72,73 @@
 // PP_ABI_VERSION.
 #define PP_ABI_VERSION 3
 
-// struct pp_pose, for pp_struct_size.
+// Numbers of the structs for pp_struct_size: PP_STRUCT_POSE is that of struct pp_pose, and so on.
 #define PP_STRUCT_POSE 1
 
-// struct pp_settings, for pp_struct_size.
 #define PP_STRUCT_SETTINGS 2
 
-// struct pp_contact, for pp_struct_size.
 #define PP_STRUCT_CONTACT 4
 
-// struct pp_closest, for pp_struct_size.
 #define PP_STRUCT_CLOSEST 5
 
-// struct pp_mass_properties, for pp_struct_size.
 #define PP_STRUCT_MASS_PROPERTIES 6
 
-// struct pp_pose_2d, for pp_struct_size.
 #define PP_STRUCT_POSE_2D 7
 
-// struct pp_contact_2d, for pp_struct_size.
 #define PP_STRUCT_CONTACT_2D 8
 
-// struct pp_closest_2d, for pp_struct_size.
 #define PP_STRUCT_CLOSEST_2D 9
 
-// struct pp_area_properties, for pp_struct_size.
 #define PP_STRUCT_AREA_PROPERTIES 12
 
-// struct pp_packing, for pp_struct_size.
 #define PP_STRUCT_PACKING 14
 
-// struct pp_placement, for pp_struct_size.
 #define PP_STRUCT_PLACEMENT 15
 
-// struct pp_flat_contact, for pp_struct_size.
 #define PP_STRUCT_FLAT_CONTACT 13
 
-// struct pp_pair_state, for pp_struct_size.
 #define PP_STRUCT_PAIR_STATE 16
 
-// struct pp_patch, for pp_struct_size.
 #define PP_STRUCT_PATCH 17
 
-// struct pp_patch_point, for pp_struct_size.
 #define PP_STRUCT_PATCH_POINT 18
 
-// struct pp_patch_2d, for pp_struct_size.
 #define PP_STRUCT_PATCH_2D 19
 
-// struct pp_patch_point_2d, for pp_struct_size.
 #define PP_STRUCT_PATCH_POINT_2D 20
 
-// struct pp_patch_state, for pp_struct_size.
 #define PP_STRUCT_PATCH_STATE 21
 
-// struct pp_joint, for pp_struct_size.
 #define PP_STRUCT_JOINT 22
 
-// struct pp_joint_set, for pp_struct_size.
 #define PP_STRUCT_JOINT_SET 23
 
-// struct pp_slice_settings, for pp_struct_size.
 #define PP_STRUCT_SLICE_SETTINGS 24
 
-// struct pp_rock_summary, for pp_struct_size.
 #define PP_STRUCT_ROCK_SUMMARY 25
 
-// struct pp_block, for pp_struct_size.
 #define PP_STRUCT_BLOCK 26
 
-// struct pp_block_face, for pp_struct_size.
 #define PP_STRUCT_BLOCK_FACE 27
 
-// struct pp_face_partners, for pp_struct_size.
 #define PP_STRUCT_FACE_PARTNERS 28
 
-// struct pp_derivatives, for pp_struct_size.
 #define PP_STRUCT_DERIVATIVES 29
 
-// struct pp_contact_weights, for pp_struct_size.
 #define PP_STRUCT_CONTACT_WEIGHTS 30
 
-// struct pp_shape_gradient, for pp_struct_size.
 #define PP_STRUCT_SHAPE_GRADIENT 31
 
-// struct pp_pose_gradient, for pp_struct_size.
 #define PP_STRUCT_POSE_GRADIENT 32
 
-// struct pp_patch_derivatives, for pp_struct_size.
 #define PP_STRUCT_PATCH_DERIVATIVES 33
 
-// struct pp_built, for pp_struct_size.
 #define PP_STRUCT_BUILT 34
 
-// struct pp_rigid_body, for pp_struct_size.
 #define PP_STRUCT_RIGID_BODY 35
 
-// struct pp_rigid_contact, for pp_struct_size.
 #define PP_STRUCT_RIGID_CONTACT 36
 
-// struct pp_equilibrium_result, for pp_struct_size.
 #define PP_STRUCT_EQUILIBRIUM_RESULT 37
 
 // Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
@@ -771,7 +738,7 @@ typedef struct pp_patch_point {
     double position[3];
     // Its share of the area, length^2.
     double area;
-    // p/K there, length.
+    // p/K = length (1 - s) there, length.
     double depth;
     // Unit normal of the patch, from A to B, world axes.
     double normal[3];
@@ -916,7 +883,7 @@ typedef struct pp_patch_point_2d {
     double position[2];
     // Its share of the length.
     double length;
-    // p/K there, length.
+    // p/K = depth_length (1 - s) there, length.
     double depth;
     // Unit normal of the patch, from A to B, world axes.
     double normal[2];

@@ -98,12 +98,6 @@ impl Flags {
         (Self::FREE, "free"),
     ];
 
-    /// From the bits of the C interface.
-    #[cfg(feature = "capi")]
-    pub(crate) const fn from_bits(bits: u32) -> Self {
-        Self(bits)
-    }
-
     /// The bits of both.
     pub(crate) const fn with(self, other: Self) -> Self {
         Self(self.0 | other.0)

@@ -152,7 +152,7 @@ impl<'de> Deserialize<'de> for Number {
 /// How the fields of an answer are written: a number that does not apply as nothing, a vector as a row of such numbers.
 pub(crate) mod field {
     use super::Number;
-    use crate::{BackEnd, Flags, Formulation, Kind};
+    use crate::{BackEnd, Feature, Flags, Formulation, Kind};
     use nalgebra::SVector;
     use serde::de::{DeserializeOwned, Error};
     use serde::{Deserialize, Deserializer, Serialize, Serializer};
@@ -215,5 +215,5 @@ pub(crate) mod field {
         };
     }
 
-    as_it_is!(u32, Kind, Formulation, BackEnd, Flags);
+    as_it_is!(u32, Kind, Feature, Formulation, BackEnd, Flags);
 }

@@ -5,6 +5,7 @@
 //! (with MIRIFLAGS=-Zmiri-disable-isolation where the clock is wanted). Everything else about it: tests/c.
 #![allow(unsafe_code)]
 
+use potential_particles::Kind;
 use potential_particles::capi::*;
 use std::mem::MaybeUninit;
 use std::ptr;
@@ -216,7 +217,7 @@ fn a_contact_with_a_wall_is_written() {
         let mut facet = MaybeUninit::<pp_flat_contact>::uninit();
         assert_eq!(pp_contact_triangle(body, &at, vertices.as_ptr(), settings, state, facet.as_mut_ptr()), PP_OK);
         let (wall, facet) = (wall.assume_init(), facet.assume_init());
-        assert!(wall.kind == PP_OVERLAPPING && facet.kind == PP_OVERLAPPING);
+        assert!(wall.kind == Kind::Overlapping && facet.kind == Kind::Overlapping);
         assert!((wall.s - facet.s).abs() <= wall.gap + facet.gap);
         let mut area = MaybeUninit::uninit();
         assert_eq!(pp_flat_contact_area(body, &at, &facet, 1e-6, area.as_mut_ptr()), PP_OK);

@@ -1,4 +1,4 @@
-//! The committed C header is the one that cbindgen makes of `src/capi` and of the answers of the library, and it names
+//! The committed C header is the one that cbindgen makes of `src/capi` and of the structs of the library, and it names
 //! this version.
 
 use std::path::{Path, PathBuf};
@@ -21,49 +21,60 @@ fn committed() -> String {
         .unwrap_or_else(|e| panic!("{}: {e}\nWrite it with\n    {REMEDY}", header_path().display()))
 }
 
-/// The answers of the library that C has as structs: file, struct, dimension, name in C.
-const ANSWERS: [(&str, &str, &str, &str); 4] = [
+/// The structs of the library that C has as they are: file, struct, dimension, name in C.
+const STRUCTS: [(&str, &str, &str, &str); 9] = [
     ("src/contact/contact.rs", "Contact", "3", "pp_contact"),
     ("src/contact/closest_point.rs", "ClosestPoint", "3", "pp_closest"),
+    ("src/boundary/contact.rs", "FlatContact", "3", "pp_flat_contact"),
+    ("src/patch/patch.rs", "PatchPoint", "3", "pp_patch_point"),
+    ("src/derivative/answer.rs", "ContactWeights", "3", "pp_contact_weights"),
+    ("src/derivative/answer.rs", "PoseGradient", "3", "pp_pose_gradient"),
     ("src/contact/contact.rs", "Contact", "2", "pp_contact_2d"),
     ("src/contact/closest_point.rs", "ClosestPoint", "2", "pp_closest_2d"),
+    ("src/patch/planar.rs", "PatchPoint", "2", "pp_patch_point_2d"),
 ];
 
-/// The list of an answer (`src/answer.rs`) as a plain struct under its name in C.
-fn answer_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> String {
+/// A struct of the library, alone or of an `answer!`, as a plain struct under its name in C.
+fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> String {
     let source = fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
-    let mut struct_of_c = String::from("#[repr(C)]\n");
-    let listed = source.lines().skip_while(|line| *line != "answer! {").skip(1).take_while(|line| *line != "}");
-    for line in listed {
-        let line = line.trim_start();
-        if line.starts_with("pub struct ") {
-            assert!(line.starts_with(&format!("pub struct {name}")), "{file} lists {line}, not {name}");
-            struct_of_c += &format!("pub struct {in_c} {{");
-        } else if line.starts_with("///") {
-            let plain = if dimension == "2" { line.replace("the surface", "the boundary") } else { line.into() };
-            struct_of_c += &plain;
-        } else if let Some((field, _)) = line.split_once(" = ") {
-            struct_of_c += field;
-            struct_of_c += ",";
+    let is_doc = |line: &&str| line.starts_with("///");
+    let lines: Vec<&str> = source.lines().map(str::trim_start).filter(|line| !line.starts_with("#[")).collect();
+    let is_head = |line: &&str| {
+        let rest = line.strip_prefix("pub struct ").and_then(|line| line.strip_prefix(name));
+        rest.is_some_and(|rest| rest.starts_with([' ', '<']))
+    };
+    let head = lines.iter().position(is_head).unwrap_or_else(|| panic!("{file} has no struct {name}"));
+    let docs = lines[..head].iter().rev().take_while(|line| is_doc(line)).count();
+    let mut plain = String::from("#[repr(C)]\n");
+    for line in &lines[head - docs..] {
+        if is_head(line) {
+            plain += &format!("pub struct {in_c} {{");
+        } else if is_doc(line) {
+            plain += &if dimension == "2" { line.replace("the surface", "the boundary") } else { (*line).into() };
         } else {
-            struct_of_c += line;
+            // Without the value that an answer has while nothing is known.
+            plain += &line.split_once(" = ").map_or_else(|| (*line).into(), |(field, _)| format!("{field},"));
         }
-        struct_of_c += "\n";
+        plain += "\n";
+        if *line == "}" {
+            break;
+        }
     }
-    let words = [("Kind", "i32"), ("Formulation", "u32"), ("BackEnd", "u32"), ("Flags", "u32")];
-    let plain = words.iter().fold(struct_of_c, |text, (of, by)| text.replace(&format!(": {of},"), &format!(": {by},")));
-    plain.replace("SVector<f64, N>", &format!("[f64; {dimension}]"))
+    let words = [("Kind", "i32"), ("Formulation", "u32"), ("BackEnd", "u32"), ("Flags", "u32"), ("Feature", "u32")];
+    let plain = words.iter().fold(plain, |text, (of, by)| text.replace(&format!(": {of},"), &format!(": {by},")));
+    let vector = format!("[f64; {dimension}]");
+    ["SVector<f64, N>", "Vector2<f64>", "Vector3<f64>"].iter().fold(plain, |text, of| text.replace(of, &vector))
 }
 
-/// From `src/capi` and the answers alone: other public items of the crate are no part of the C interface.
+/// From `src/capi` and these structs alone: other public items of the crate are no part of the C interface.
 fn generated() -> String {
-    let answers = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("answers_{:?}.rs", std::thread::current().id()));
-    fs::write(&answers, ANSWERS.map(answer_in_c).concat()).expect("the build folder is writable");
+    let structs = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("structs_{:?}.rs", std::thread::current().id()));
+    fs::write(&structs, STRUCTS.map(struct_in_c).concat()).expect("the build folder is writable");
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml is readable");
     let sources = cbindgen::Builder::new().with_config(config).with_src(root().join("src/capi/mod.rs"));
     let mut text = Vec::new();
-    sources.with_src(&answers).generate().expect("cbindgen reads src/capi").write(&mut text);
-    fs::remove_file(&answers).expect("the build folder is writable");
+    sources.with_src(&structs).generate().expect("cbindgen reads src/capi").write(&mut text);
+    fs::remove_file(&structs).expect("the build folder is writable");
     String::from_utf8(text).expect("cbindgen writes UTF-8")
 }
 

@@ -1,14 +1,13 @@
 //! Contacts with planes and triangles.
 
-use crate::arrays::{to_vector, vector};
-use crate::contact::{PyPairState, getters, getters_of_contact, names};
+use crate::arrays::vector;
+use crate::contact::{PyPairState, attributes, getters_of_contact, names};
 use crate::errors::{of_contact, refused};
 use crate::particle::PyParticle;
 use crate::pickles::pickled;
 use crate::pose::PyPose;
 use crate::settings::{PySettings, or_default};
-use numpy::PyArray1;
-use potential_particles::{Feature, FlatContact, Kind, Triangle, Wall, contact_with_plane, contact_with_triangle};
+use potential_particles::{FlatContact, Kind, Triangle, Wall, contact_with_plane, contact_with_triangle};
 use pyo3::prelude::*;
 
 /// A plane, which a particle touches from either side.
@@ -70,18 +69,14 @@ impl PyTriangle {
 #[pyclass(name = "FlatContact", module = "potential_particles", frozen)]
 pub struct PyFlatContact(pub FlatContact);
 
-getters!(PyFlatContact: s, gap, point_bound, overlap, distance; normal, point, branch, on_boundary, on_particle);
 getters_of_contact!(PyFlatContact);
 
 #[pymethods]
 impl PyFlatContact {
     #[getter]
-    fn feature(&self) -> (&'static str, u8) {
-        match self.0.feature {
-            Feature::Interior => ("interior", 0),
-            Feature::Edge(i) => ("edge", i),
-            Feature::Vertex(i) => ("vertex", i),
-        }
+    fn feature(&self) -> (&'static str, usize) {
+        let feature = self.0.feature;
+        feature.edge().map(|i| ("edge", i)).or(feature.vertex().map(|i| ("vertex", i))).unwrap_or(("interior", 0))
     }
 
     fn __repr__(&self) -> String {
@@ -134,6 +129,7 @@ pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PyWall>()?;
     module.add_class::<PyTriangle>()?;
     module.add_class::<PyFlatContact>()?;
+    attributes!(module.py(), PyFlatContact: FlatContact);
     module.add_function(wrap_pyfunction!(with_plane, module)?)?;
     module.add_function(wrap_pyfunction!(with_triangle, module)?)
 }

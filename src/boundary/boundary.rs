@@ -1,5 +1,6 @@
 //! Planes and triangles as given, checked.
 
+use crate::answer::words;
 use crate::linalg::number::direction;
 use crate::linalg::wide::{difference, rounded};
 use crate::pair::boundary_part::BoundaryPart;
@@ -24,13 +25,52 @@ pub enum BoundaryError {
 /// The part of a boundary on which a point lies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(u32)]
 pub enum Feature {
     /// The plane, or the inside of the triangle.
-    Interior,
-    /// Edge i, between the vertices i and i + 1 (of edge 2: 2 and 0).
-    Edge(u8),
-    /// Vertex i.
-    Vertex(u8),
+    Interior = 0,
+    /// The edge between the vertices 0 and 1.
+    Edge0 = 1,
+    /// Between 1 and 2.
+    Edge1 = 2,
+    /// Between 2 and 0.
+    Edge2 = 3,
+    /// Vertex 0.
+    Vertex0 = 4,
+    /// Vertex 1.
+    Vertex1 = 5,
+    /// Vertex 2.
+    Vertex2 = 6,
+}
+
+words!(Feature, "u4", |feature| (feature as u32));
+
+impl Feature {
+    const ALL: [Self; 7] =
+        [Self::Interior, Self::Edge0, Self::Edge1, Self::Edge2, Self::Vertex0, Self::Vertex1, Self::Vertex2];
+
+    /// From its number, 0 to 6.
+    pub(crate) fn from_number(number: u32) -> Option<Self> {
+        Self::ALL.get(number as usize).copied()
+    }
+
+    pub(super) fn of_edge(i: usize) -> Self {
+        Self::ALL[1 + i]
+    }
+
+    pub(super) fn of_vertex(i: usize) -> Self {
+        Self::ALL[4 + i]
+    }
+
+    /// i of an edge, which joins the vertices i and i + 1 (of edge 2: 2 and 0).
+    pub fn edge(self) -> Option<usize> {
+        (self as usize).checked_sub(1).filter(|i| *i < 3)
+    }
+
+    /// i of a vertex.
+    pub fn vertex(self) -> Option<usize> {
+        (self as usize).checked_sub(4)
+    }
 }
 
 /// A plane, which a particle touches from either side.

@@ -221,11 +221,9 @@ impl Search<'_> {
     /// without regard to the triangle, so that all triangles that share it get the same bits. Its bounds are those
     /// found, and what the two differ by.
     fn as_without_triangle(&mut self, triangle: &Triangle, precise: Closest) -> Result<Closest, DetectError> {
-        let edge = match precise.feature {
-            Feature::Edge(i) => Some(usize::from(i)),
-            feature => ending_at(feature).next(),
+        let Some(edge) = precise.feature.edge().or_else(|| ending_at(precise.feature).next()) else {
+            return Ok(precise);
         };
-        let Some(edge) = edge else { return Ok(precise) };
         let (mut search, mut on_edges) = (Search { precise: false, ..*self }, [None; 3]);
         let found = search.on_edge_once(triangle, &mut on_edges, edge)?;
         let OnEdge { mut least, feature, .. } = search.from_vertices(triangle, &mut on_edges, found)?;
@@ -267,7 +265,7 @@ impl Search<'_> {
         // Distances from both ends.
         let inside = [x - from, to - x];
         let Some(nearest) = [0, 1].into_iter().find(|end| inside[*end] <= of_line.shift()) else {
-            return Ok(OnEdge { least: of_line, feature: Feature::Edge(i as u8), of_line, from_line: 0.0 });
+            return Ok(OnEdge { least: of_line, feature: Feature::of_edge(i), of_line, from_line: 0.0 });
         };
         // By rounding the point of the line may lie beyond the wrong end.
         let value = |end: &Vector3<f64>| self.body().value(&self.pose.rotation().tr_mul(&(end - self.pose.position())));
@@ -278,7 +276,7 @@ impl Search<'_> {
         let least = self.on_part(&PlacedPart::new(corner, self.pose), Vector2::zeros())?;
         let from_line =
             if end == nearest && inside[end] >= 0.0 { inside[end] + of_line.shift() } else { f64::INFINITY };
-        Ok(OnEdge { least, feature: Feature::Vertex(vertex as u8), of_line, from_line })
+        Ok(OnEdge { least, feature: Feature::of_vertex(vertex), of_line, from_line })
     }
 
     /// The particle as it is solved for.
@@ -314,8 +312,7 @@ impl Least {
 
 /// The edges that end at a vertex.
 fn ending_at(feature: Feature) -> impl Iterator<Item = usize> {
-    let edges: &[usize] =
-        if let Feature::Vertex(vertex) = feature { &[[0, 2], [1, 0], [2, 1]][usize::from(vertex)] } else { &[] };
+    let edges: &[usize] = feature.vertex().map_or(&[], |vertex| &[[0, 2], [1, 0], [2, 1]][vertex]);
     edges.iter().copied()
 }
 
@@ -393,10 +390,10 @@ mod tests {
     #[test]
     fn an_edge_ends_at_its_two_vertices() {
         for vertex in 0..3 {
-            let edges: Vec<usize> = ending_at(Feature::Vertex(vertex as u8)).collect();
+            let edges: Vec<usize> = ending_at(Feature::of_vertex(vertex)).collect();
             assert!(edges.len() == 2 && (0..3).all(|i| edges.contains(&i) == (i == vertex || (i + 1) % 3 == vertex)));
         }
-        assert_eq!(ending_at(Feature::Interior).chain(ending_at(Feature::Edge(1))).count(), 0);
+        assert_eq!(ending_at(Feature::Interior).chain(ending_at(Feature::Edge1)).count(), 0);
     }
 
     /// Whether all parts of a triangle are solved in extended precision depends on the triangle: what it shares with

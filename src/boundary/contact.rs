@@ -4,16 +4,17 @@ use super::boundary::{Feature, Triangle, Wall};
 use super::closest::{Closest, Search};
 use super::separation;
 use super::triangle::PlacedTriangle;
+use crate::answer::answer;
 use crate::bounds::scale::Scale;
 use crate::contact::contact::Kind;
 use crate::contact::error::DetectError;
 use crate::flags::Flags;
 use crate::linalg::number::direction;
-use crate::linalg::number::{UNKNOWN_VECTOR, equality, larger};
+use crate::linalg::number::{larger, unknown_vector};
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::boundary_part::PlacedPart;
 use crate::pair::pair::Pair;
-use crate::pair::pair_state::{PairState, Remembered, from_memory_or_anew};
+use crate::pair::pair_state::{How, PairState, Remembered, from_memory_or_anew};
 use crate::pair::separation::Apart;
 use crate::particle::particle::Particle;
 use crate::particle::{potential, ray_cast};
@@ -23,49 +24,50 @@ use crate::settings::Settings;
 use crate::solver::call::SolveError;
 use nalgebra::Vector3;
 
-/// The answer for a particle A and a boundary T, world axes, lengths in the caller's unit. What does not apply is NaN.
-#[derive(Clone, Copy, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-#[non_exhaustive]
-pub struct FlatContact {
-    /// Separated or overlapping.
-    pub kind: Kind,
-    /// Where on the boundary its point lies.
-    pub feature: Feature,
-    /// What else is to be known; [`Flags::BY_FACE`] where A lies beyond the plane of T, or T beyond a face of A.
-    pub flags: Flags,
-    /// Quadratics solved.
-    pub iterations: u32,
-    /// √S_A at x*, the least on T, with S_A as regularised ([`Settings::flat_regularisation`]). Rejected: a proved
-    /// lower bound, ≥ 1.
+answer! {
+    /// The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
+    /// axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
     ///
-    /// It depends on the particle, its pose and this boundary alone, and on an edge or a vertex on nothing else of the
-    /// triangle: of the triangles of a mesh, the one with the least s (of equal ones, the first) owns the contact at a
-    /// seam. With k = 0 and a flat face on several triangles the regularisation alone tells them apart: at its default
-    /// to some percent of the size, at 1e-4 to 1e-6 of it.
-    pub s: f64,
-    /// |s − s*| ≤ gap: rounding to first order in doubles, as of [`crate::Contact::gap`].
-    pub gap: f64,
-    /// Estimated bound on the distance of `on_boundary` to x*, length.
-    pub point_bound: f64,
-    /// Distance from x* along the normal to the surface of A, > 0 when overlapping; NaN when separated.
-    pub overlap: f64,
-    /// Separated: A and T are at least this far from each other, as far as the proof knows; NaN when overlapping.
-    pub distance: f64,
-    /// Unit normal from A to T, ∇S_A/|∇S_A| at x*; on the inside of T exactly ± its own normal.
-    pub normal: Vector3<f64>,
-    /// Contact point, halfway between `on_boundary` and `on_particle`, world frame; x* when separated.
-    pub point: Vector3<f64>,
-    /// Contact point minus position of A.
-    pub branch: Vector3<f64>,
-    /// x*, world frame.
-    pub on_boundary: Vector3<f64>,
-    /// The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
-    pub on_particle: Vector3<f64>,
+    /// x* is the point of T where the scale s of A is least. A overlaps T if that scale is below 1.
+    pub struct FlatContact {
+        /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+        pub kind: Kind = Kind::Separated,
+        /// Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
+        pub feature: Feature = Feature::Interior,
+        /// Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES, or with BY_FACE (of A, or T itself);
+        /// ROUNDING_LIMITED, EXTENDED, DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
+        pub flags: Flags = Flags::NONE,
+        /// Quadratics solved.
+        pub iterations: u32 = 0,
+        /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
+        /// no less than 1. Triangles that share the edge or vertex on which x* lies get the same s to the last
+        /// bit: a caller can give the contact at a seam to the triangle with the least s, and break ties by its
+        /// own numbering. If a flat face (k = 0) lies on several triangles, their s differ by flat_regularisation
+        /// only; the place of the contact is then known to some percent of the size with the default, to 1e-6 of
+        /// the size with 1e-4.
+        pub s: f64 = f64::NAN,
+        /// Bound on the error of s, with rounding to first order in doubles (as in struct pp_contact).
+        pub gap: f64 = f64::NAN,
+        /// Estimated bound on the distance of on_boundary to the exact x*, length.
+        pub point_bound: f64 = f64::NAN,
+        /// Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, >= 0 when
+        /// overlapping; NaN when separated.
+        pub overlap: f64 = f64::NAN,
+        /// Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
+        /// overlapping.
+        pub distance: f64 = 0.0,
+        /// Unit normal from A to T: the gradient of S_A at x*; inside T exactly the normal of T or its opposite.
+        pub normal: Vector3<f64> = unknown_vector(),
+        /// Contact point, halfway between on_boundary and on_particle, world frame; x* when separated.
+        pub point: Vector3<f64> = unknown_vector(),
+        /// Contact point minus position of A: exact lever arm even far from the world origin.
+        pub branch: Vector3<f64> = unknown_vector(),
+        /// x*, world frame.
+        pub on_boundary: Vector3<f64> = unknown_vector(),
+        /// The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
+        pub on_particle: Vector3<f64> = unknown_vector(),
+    }
 }
-
-equality!(FlatContact: kind, feature, flags, iterations; s, gap, point_bound, overlap, distance;
-    normal, point, branch, on_boundary, on_particle);
 
 /// Contact of A at a pose with a plane, which it may touch from either side.
 ///
@@ -179,8 +181,8 @@ impl Call<'_> {
         let contact = self.described(&body, &found, scale)?;
         let flags = contact.flags.with(search.flags);
         if let (Some(state), Some(x)) = (state, search.remembered) {
-            let overlapping = contact.kind == Kind::Overlapping;
-            state.remember(Remembered { x, lambda: 1.0, overlapping, balanced: false, closest: [1.0; 2] });
+            let how = How::solved(contact.kind == Kind::Overlapping);
+            state.remember(Remembered { x, lambda: 1.0, how, closest: [1.0; 2] });
         }
         Ok(FlatContact { flags, iterations: search.iterations, ..contact })
     }
@@ -235,7 +237,7 @@ impl Call<'_> {
             _ if !steep && side > shift => self.normal,
             _ if !steep => -self.normal,
             Feature::Interior => across.z.signum() * self.normal,
-            Feature::Edge(_) | Feature::Vertex(_) => direction(&(least.rotation * across)).unwrap_or(-self.normal),
+            _ => direction(&(least.rotation * across)).unwrap_or(-self.normal),
         };
         (normal, !steep)
     }
@@ -265,30 +267,6 @@ impl From<&FlatContact> for Section {
 }
 
 impl FlatContact {
-    /// Of which nothing is known yet.
-    const UNKNOWN: Self = Self {
-        kind: Kind::Separated,
-        feature: Feature::Interior,
-        flags: Flags::NONE,
-        iterations: 0,
-        s: f64::NAN,
-        gap: f64::NAN,
-        point_bound: f64::NAN,
-        overlap: f64::NAN,
-        distance: 0.0,
-        normal: UNKNOWN_VECTOR,
-        point: UNKNOWN_VECTOR,
-        branch: UNKNOWN_VECTOR,
-        on_boundary: UNKNOWN_VECTOR,
-        on_particle: UNKNOWN_VECTOR,
-    };
-
-    /// What the patch of a contact is computed from.
-    #[cfg(feature = "capi")]
-    pub(crate) fn for_patch(kind: Kind, s: f64, overlap: f64, normal: Vector3<f64>, on_boundary: Vector3<f64>) -> Self {
-        Self { kind, s, overlap, normal, on_boundary, ..Self::UNKNOWN }
-    }
-
     fn apart(proof: &Apart) -> Self {
         let flags = proof.by.with(Flags::REJECTED);
         Self { flags, s: 1.0, distance: proof.distance, ..Self::UNKNOWN }

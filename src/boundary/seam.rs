@@ -49,14 +49,10 @@ pub fn onwards_from_seam(
     let body = Body::alone(a, settings.least_sphericity());
     let local = |vertices: &[Vector3<f64>; 3]| vertices.map(|x| pose.rotation().tr_mul(&(x - pose.position())));
     let (own, others) = (local(triangle.vertices()), local(neighbour.vertices()));
-    let (x, doubt, into, shared) = match feature {
-        Feature::Interior => return Onwards::Unknown,
-        Feature::Vertex(i) => {
-            let i = usize::from(i);
-            (own[i], 0.0, [own[(i + 1) % 3], own[(i + 2) % 3]], [own[i]; 2])
-        }
-        Feature::Edge(i) => {
-            let i = usize::from(i);
+    let (x, doubt, into, shared) = match (feature.edge(), feature.vertex()) {
+        (None, None) => return Onwards::Unknown,
+        (None, Some(i)) => (own[i], 0.0, [own[(i + 1) % 3], own[(i + 2) % 3]], [own[i]; 2]),
+        (Some(i), _) => {
             let third = own[(i + 2) % 3];
             let Some((x, doubt)) = least_on_edge(&body, &own[i], &own[(i + 1) % 3], share) else {
                 return Onwards::Unknown;
@@ -86,7 +82,7 @@ pub fn onwards_from_seam(
         |vertex: &&Vector3<f64>| shared.iter().any(|own| (own - **vertex).norm() <= SAME * a.bounding_radius());
     let mut slopes = others.iter().filter(|vertex| !is_shared(vertex)).map(slope);
     let (first, second, third) = (slopes.next(), slopes.next(), slopes.next());
-    let is_edge = matches!(feature, Feature::Edge(_));
+    let is_edge = feature.edge().is_some();
     let (Some(first), None) = (first, third) else { return Onwards::Unknown };
     // The neighbour has no more vertices beyond than if it shares the edge, or the vertex.
     if is_edge == second.is_some() {
@@ -178,7 +174,7 @@ mod tests {
             if way != Onwards::Unknown {
                 assert!(here.kind == Kind::Overlapping && here.feature == before.feature, "{seed}: {here:?}");
                 let on_edge = ends[0] + share * (ends[1] - ends[0]);
-                let is_edge = before.feature == Feature::Edge(0);
+                let is_edge = before.feature == Feature::Edge0;
                 assert!(!is_edge || (on_edge - here.on_boundary).norm() < 1e-8, "{seed}: {on_edge}");
             }
         }
@@ -194,7 +190,7 @@ mod tests {
             let pose = Pose::at(pose).unwrap();
             onwards_from_seam(&ball, &pose, &own, feature, other, &Settings::default(), &mut 0.5)
         };
-        let edge = Feature::Edge(0);
+        let edge = Feature::Edge0;
         // A ridge, seen from its edge.
         let down = Triangle::new([[1.0, 0.0, 0.0], [0.0, 0.0, 0.0], [0.0, -0.1, -1.0]]).unwrap();
         assert_eq!(way([0.5, -0.2, 0.9], edge, &other), Onwards::Falls);

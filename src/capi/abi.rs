@@ -1,19 +1,18 @@
 //! Which library was loaded, and whether its structs are those that the caller was compiled with.
 
+#![allow(missing_docs)] // The first number of a struct has the comment for all.
+
 use super::builder::pp_built;
-use super::derivative::{pp_contact_weights, pp_derivatives, pp_pose_gradient, pp_shape_gradient};
+use super::derivative::{pp_derivatives, pp_shape_gradient};
 use super::equilibrium::{pp_equilibrium_result, pp_rigid_body, pp_rigid_contact};
-use super::flat::pp_flat_contact;
 use super::packing::{pp_packing, pp_placement};
-use super::patch::{pp_patch, pp_patch_point, pp_patch_state};
+use super::patch::{pp_patch, pp_patch_state};
 use super::patch_derivatives::pp_patch_derivatives;
-use super::planar::{pp_area_properties, pp_patch_2d, pp_patch_point_2d, pp_pose_2d};
+use super::planar::{pp_area_properties, pp_patch_2d, pp_pose_2d};
 use super::rock::pp_slice_settings;
 use super::rock_arrays::{pp_block, pp_block_face, pp_face_partners, pp_rock_summary};
 use super::rock_joints::{pp_joint, pp_joint_set};
-use super::types::{
-    pp_closest, pp_closest_2d, pp_contact, pp_contact_2d, pp_mass_properties, pp_pair_state, pp_pose, pp_settings,
-};
+use super::types::*;
 use std::ffi::{CStr, c_char};
 
 /// Version of this header; compare with pp_version of the library that was loaded.
@@ -29,73 +28,40 @@ pub const PP_VERSION_PATCH: u32 = 0;
 /// PP_ABI_VERSION.
 pub const PP_ABI_VERSION: u32 = 3;
 
-/// struct pp_pose, for pp_struct_size.
+/// Numbers of the structs for pp_struct_size: PP_STRUCT_POSE is that of struct pp_pose, and so on.
 pub const PP_STRUCT_POSE: u32 = 1;
-/// struct pp_settings, for pp_struct_size.
 pub const PP_STRUCT_SETTINGS: u32 = 2;
-/// struct pp_contact, for pp_struct_size.
 pub const PP_STRUCT_CONTACT: u32 = 4;
-/// struct pp_closest, for pp_struct_size.
 pub const PP_STRUCT_CLOSEST: u32 = 5;
-/// struct pp_mass_properties, for pp_struct_size.
 pub const PP_STRUCT_MASS_PROPERTIES: u32 = 6;
-/// struct pp_pose_2d, for pp_struct_size.
 pub const PP_STRUCT_POSE_2D: u32 = 7;
-/// struct pp_contact_2d, for pp_struct_size.
 pub const PP_STRUCT_CONTACT_2D: u32 = 8;
-/// struct pp_closest_2d, for pp_struct_size.
 pub const PP_STRUCT_CLOSEST_2D: u32 = 9;
-/// struct pp_area_properties, for pp_struct_size.
 pub const PP_STRUCT_AREA_PROPERTIES: u32 = 12;
-/// struct pp_packing, for pp_struct_size.
 pub const PP_STRUCT_PACKING: u32 = 14;
-/// struct pp_placement, for pp_struct_size.
 pub const PP_STRUCT_PLACEMENT: u32 = 15;
-/// struct pp_flat_contact, for pp_struct_size.
 pub const PP_STRUCT_FLAT_CONTACT: u32 = 13;
-/// struct pp_pair_state, for pp_struct_size.
 pub const PP_STRUCT_PAIR_STATE: u32 = 16;
-/// struct pp_patch, for pp_struct_size.
 pub const PP_STRUCT_PATCH: u32 = 17;
-/// struct pp_patch_point, for pp_struct_size.
 pub const PP_STRUCT_PATCH_POINT: u32 = 18;
-/// struct pp_patch_2d, for pp_struct_size.
 pub const PP_STRUCT_PATCH_2D: u32 = 19;
-/// struct pp_patch_point_2d, for pp_struct_size.
 pub const PP_STRUCT_PATCH_POINT_2D: u32 = 20;
-/// struct pp_patch_state, for pp_struct_size.
 pub const PP_STRUCT_PATCH_STATE: u32 = 21;
-/// struct pp_joint, for pp_struct_size.
 pub const PP_STRUCT_JOINT: u32 = 22;
-/// struct pp_joint_set, for pp_struct_size.
 pub const PP_STRUCT_JOINT_SET: u32 = 23;
-/// struct pp_slice_settings, for pp_struct_size.
 pub const PP_STRUCT_SLICE_SETTINGS: u32 = 24;
-/// struct pp_rock_summary, for pp_struct_size.
 pub const PP_STRUCT_ROCK_SUMMARY: u32 = 25;
-/// struct pp_block, for pp_struct_size.
 pub const PP_STRUCT_BLOCK: u32 = 26;
-/// struct pp_block_face, for pp_struct_size.
 pub const PP_STRUCT_BLOCK_FACE: u32 = 27;
-/// struct pp_face_partners, for pp_struct_size.
 pub const PP_STRUCT_FACE_PARTNERS: u32 = 28;
-/// struct pp_derivatives, for pp_struct_size.
 pub const PP_STRUCT_DERIVATIVES: u32 = 29;
-/// struct pp_contact_weights, for pp_struct_size.
 pub const PP_STRUCT_CONTACT_WEIGHTS: u32 = 30;
-/// struct pp_shape_gradient, for pp_struct_size.
 pub const PP_STRUCT_SHAPE_GRADIENT: u32 = 31;
-/// struct pp_pose_gradient, for pp_struct_size.
 pub const PP_STRUCT_POSE_GRADIENT: u32 = 32;
-/// struct pp_patch_derivatives, for pp_struct_size.
 pub const PP_STRUCT_PATCH_DERIVATIVES: u32 = 33;
-/// struct pp_built, for pp_struct_size.
 pub const PP_STRUCT_BUILT: u32 = 34;
-/// struct pp_rigid_body, for pp_struct_size.
 pub const PP_STRUCT_RIGID_BODY: u32 = 35;
-/// struct pp_rigid_contact, for pp_struct_size.
 pub const PP_STRUCT_RIGID_CONTACT: u32 = 36;
-/// struct pp_equilibrium_result, for pp_struct_size.
 pub const PP_STRUCT_EQUILIBRIUM_RESULT: u32 = 37;
 
 /// Version of the loaded library as "major.minor.patch". Static text: do not free it.

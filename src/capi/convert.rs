@@ -4,8 +4,8 @@ use super::fence::{array, borrow};
 use super::status::*;
 use super::types::*;
 use crate::{
-    BackEnd, Contact, DetectError, Formulation, Kind, MassProperties, PairState, Plane, Pose, PoseError, Role,
-    Settings, SettingsError,
+    BackEnd, Contact, DetectError, Formulation, MassProperties, PairState, Plane, Pose, PoseError, Role, Settings,
+    SettingsError,
 };
 use nalgebra::Vector3;
 
@@ -126,14 +126,6 @@ pub(super) fn settings_status(error: &SettingsError) -> pp_status {
     match error {
         SettingsError::NoConeProgram => PP_NO_CONE_PROGRAM,
         _ => PP_BAD_SETTING,
-    }
-}
-
-#[inline]
-pub(super) fn kind_code(kind: Kind) -> i32 {
-    match kind {
-        Kind::Separated => PP_SEPARATED,
-        Kind::Overlapping => PP_OVERLAPPING,
     }
 }
 

@@ -2,18 +2,16 @@
 
 use super::convert::{contact_of, detect_status, pose_from, settings_from, settings_status};
 use super::fence::{Output, array_mut, borrow, fenced, output};
-use super::flat::{boundary_status, pp_flat_contact};
+use super::flat::{flat_contact_of, triangle_from};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
-use crate::boundary::{Feature, FlatContact, Triangle};
-use crate::contact::contact::Kind;
+use crate::boundary::Triangle;
 use crate::particle::particle::{Particle, Plane};
 use crate::{
     ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows,
     ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
 };
-use nalgebra::Vector3;
 
 /// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
 /// inactive; the derivative of s is the same either way.
@@ -53,27 +51,6 @@ pub struct pp_derivatives {
     pub point_on_b: [[f64; 12]; 3],
 }
 
-/// Derivatives of the caller's cost with respect to the fields of a contact. For a field that is NaN in the
-/// contact the derivative must be 0.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_contact_weights {
-    /// In s.
-    pub s: f64,
-    /// In s_b.
-    pub s_b: f64,
-    /// In overlap.
-    pub overlap: f64,
-    /// In normal.
-    pub normal: [f64; 3],
-    /// In point.
-    pub point: [f64; 3],
-    /// In point_on_a (of a boundary: on_particle).
-    pub point_on_a: [f64; 3],
-    /// In point_on_b (of a boundary: on_boundary).
-    pub point_on_b: [f64; 3],
-}
-
 /// Derivatives of a cost with respect to the shape of a particle. Calls add to it: set all numbers, and the
 /// planes, to 0 first.
 #[repr(C)]
@@ -89,16 +66,6 @@ pub struct pp_shape_gradient {
     pub k: f64,
     /// In the radius R of the shadow sphere.
     pub shadow_radius: f64,
-}
-
-/// Derivatives of a cost in the pose of a body.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_pose_gradient {
-    /// In a shift, world axes.
-    pub shift: [f64; 3],
-    /// In a turn about its position, world axes, per radian.
-    pub turn: [f64; 3],
 }
 
 /// The derivatives of a contact in the poses of both bodies, at the contact, which is not solved again.
@@ -157,12 +124,12 @@ pub unsafe extern "C" fn pp_contact_gradient(
         let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
         let settings = settings_from(unsafe { settings.as_ref() })?;
         let contact = unsafe { contact_of(contact) }?;
-        let weights = weights_from(unsafe { borrow(weights) }?)?;
+        let weights = checked(unsafe { borrow(weights) }?)?;
         let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
         let mut shapes = [unsafe { Shape::of(shape_a, a) }?, unsafe { Shape::of(shape_b, b) }?];
         let [of_a, of_b] = &mut shapes;
         let (of_a, of_b) = (of_a.as_mut().map(|s| &mut s.sum), of_b.as_mut().map(|s| &mut s.sum));
-        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, &settings, &weights, of_a, of_b);
+        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, &settings, weights, of_a, of_b);
         write(found, shapes, &poses, &flags)
     })
 }
@@ -185,11 +152,11 @@ pub unsafe extern "C" fn pp_flat_contact_derivatives(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let triangle = unsafe { triangle_from(vertices) }?;
+        let triangle = unsafe { boundary_from(vertices) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = flat_contact_from(unsafe { borrow(contact) }?)?;
+        let contact = unsafe { flat_contact_of(contact) }?;
         let out = unsafe { output(out) }?;
-        let found = boundary_derivatives(a, &pose, triangle.as_ref(), &contact, &settings).map_err(status_of)?;
+        let found = boundary_derivatives(a, &pose, triangle.as_ref(), contact, &settings).map_err(status_of)?;
         out.write(derivatives_to(&found));
         Ok(())
     })
@@ -216,14 +183,14 @@ pub unsafe extern "C" fn pp_flat_contact_gradient(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let triangle = unsafe { triangle_from(vertices) }?;
+        let triangle = unsafe { boundary_from(vertices) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = flat_contact_from(unsafe { borrow(contact) }?)?;
-        let weights = weights_from(unsafe { borrow(weights) }?)?;
+        let contact = unsafe { flat_contact_of(contact) }?;
+        let weights = checked(unsafe { borrow(weights) }?)?;
         let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
         let mut gradient = unsafe { Shape::of(shape, a) }?;
         let sum = gradient.as_mut().map(|s| &mut s.sum);
-        let found = boundary_gradient(a, &pose, triangle.as_ref(), &contact, &settings, &weights, sum);
+        let found = boundary_gradient(a, &pose, triangle.as_ref(), contact, &settings, weights, sum);
         write(found, [gradient, None], &poses, &flags)
     })
 }
@@ -267,7 +234,7 @@ fn write(
 ) -> Result<(), pp_status> {
     let (gradients, found) = found.map_err(status_of)?;
     shapes.into_iter().flatten().for_each(Shape::add);
-    poses.write(gradients.map(|g| pp_pose_gradient { shift: g.shift.into(), turn: g.turn.into() }));
+    poses.write(gradients);
     flags.write(found.bits());
     Ok(())
 }
@@ -282,53 +249,19 @@ fn status_of(error: DerivativeError) -> pp_status {
     }
 }
 
-fn kind_from(kind: i32) -> Result<Kind, pp_status> {
-    match kind {
-        PP_OVERLAPPING => Ok(Kind::Overlapping),
-        PP_SEPARATED => Ok(Kind::Separated),
-        _ => Err(PP_BAD_POINT),
-    }
-}
-
-fn flat_contact_from(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {
-    use super::flat::{PP_ON_EDGE, PP_ON_INTERIOR, PP_ON_VERTEX};
-    let feature = match contact.feature {
-        PP_ON_INTERIOR => Feature::Interior,
-        edge if (PP_ON_EDGE..PP_ON_EDGE + 3).contains(&edge) => Feature::Edge((edge - PP_ON_EDGE) as u8),
-        vertex if (PP_ON_VERTEX..PP_ON_VERTEX + 3).contains(&vertex) => Feature::Vertex((vertex - PP_ON_VERTEX) as u8),
-        _ => return Err(PP_BAD_POINT),
-    };
-    let kind = kind_from(contact.kind)?;
-    let (normal, on_boundary) = (contact.normal.into(), contact.on_boundary.into());
-    Ok(FlatContact {
-        feature,
-        flags: crate::Flags::from_bits(contact.flags),
-        point_bound: contact.point_bound,
-        point: contact.point.into(),
-        branch: contact.branch.into(),
-        on_particle: contact.on_particle.into(),
-        ..FlatContact::for_patch(kind, contact.s, contact.overlap, normal, on_boundary)
-    })
-}
-
+/// No triangle for a plane.
+///
 /// # Safety
 /// `vertices` is NULL or points to 9 numbers.
-pub(super) unsafe fn triangle_from(vertices: *const f64) -> Result<Option<Triangle>, pp_status> {
-    if vertices.is_null() {
-        return Ok(None);
-    }
-    let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
-    Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map(Some).map_err(boundary_status)
+pub(super) unsafe fn boundary_from(vertices: *const f64) -> Result<Option<Triangle>, pp_status> {
+    if vertices.is_null() { Ok(None) } else { unsafe { triangle_from(vertices) }.map(Some) }
 }
 
-fn weights_from(weights: &pp_contact_weights) -> Result<ContactWeights, pp_status> {
-    let pp_contact_weights { s, s_b, overlap, normal, point, point_on_a, point_on_b } = *weights;
+fn checked(weights: &ContactWeights) -> Result<&ContactWeights, pp_status> {
+    let ContactWeights { s, s_b, overlap, normal, point, point_on_a, point_on_b } = weights;
     let vectors = [normal, point, point_on_a, point_on_b];
-    if ![s, s_b, overlap].iter().chain(vectors.iter().flatten()).all(|v| v.is_finite()) {
-        return Err(PP_BAD_SETTING);
-    }
-    let [normal, point, point_on_a, point_on_b] = vectors.map(Vector3::from);
-    Ok(ContactWeights { s, s_b, overlap, normal, point, point_on_a, point_on_b })
+    let is_finite = [s, s_b, overlap].into_iter().chain(vectors.into_iter().flatten()).all(|v| v.is_finite());
+    if is_finite { Ok(weights) } else { Err(PP_BAD_SETTING) }
 }
 
 /// The rows of x, y and z.

@@ -129,6 +129,28 @@ impl<T> Output<T> {
     }
 }
 
+/// Writes what `get` gives of the object behind a pointer argument.
+///
+/// # Safety
+/// As of [`borrow`] and [`output`].
+pub(super) unsafe fn read<T, V>(object: *const T, to: *mut V, get: impl FnOnce(&T) -> V) -> pp_status {
+    fenced(|| {
+        let object = unsafe { borrow(object) }?;
+        unsafe { output(to) }?.write(get(object));
+        Ok(())
+    })
+}
+
+/// Drops an object that a caller gives back; nothing for NULL.
+///
+/// # Safety
+/// `object` is NULL or came from `Box::into_raw`, and is given back once.
+pub(super) unsafe fn release<T>(object: *mut T) {
+    if !object.is_null() {
+        drop(unsafe { Box::from_raw(object) });
+    }
+}
+
 /// Refuses a buffer that is NULL but said to have room, whatever there is to be written.
 pub(super) fn check_room<T>(buffer: *mut T, capacity: usize) -> Result<(), pp_status> {
     if capacity > 0 && buffer.is_null() { Err(PP_NULL_POINTER) } else { Ok(()) }

@@ -1,11 +1,11 @@
 //! The contact of a particle with a flat boundary.
 
-use super::convert::{detect_status, kind_code, pose_from, settings_from, state_of};
-use super::fence::{Output, borrow, fenced, output};
+use super::convert::{detect_status, pose_from, settings_from, state_of};
+use super::fence::{borrow, fenced, output};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
-use crate::{BoundaryError, DetectError, Feature, FlatContact, Section, Triangle, Wall};
+use crate::{BoundaryError, Feature, FlatContact, Kind, Section, Triangle, Wall};
 use crate::{Onwards, contact_with_plane, contact_with_triangle, onwards_from_seam};
 
 /// The point on the boundary lies on the plane, or inside the triangle.
@@ -14,51 +14,10 @@ pub const PP_ON_INTERIOR: u32 = 0;
 pub const PP_ON_EDGE: u32 = 1;
 /// It is vertex 0; PP_ON_VERTEX + i: vertex i.
 pub const PP_ON_VERTEX: u32 = 4;
-
-/// The contact of a particle A with a flat boundary T, a plane or a closed triangle of no thickness. World
-/// axes; lengths in the caller's unit; s and gap have no unit. Fields that do not apply are NaN.
-///
-/// x* is the point of T where the scale s of A is least. A overlaps T if that scale is below 1.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_flat_contact {
-    /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
-    pub kind: i32,
-    /// Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
-    pub feature: u32,
-    /// Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES, or with BY_FACE (of A, or T itself);
-    /// ROUNDING_LIMITED, EXTENDED, DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
-    pub flags: u32,
-    /// Quadratics solved.
-    pub iterations: u32,
-    /// Scale of A at x*, the least on T, of A as regularised (flat_regularisation). Rejected: a lower bound,
-    /// no less than 1. Triangles that share the edge or vertex on which x* lies get the same s to the last
-    /// bit: a caller can give the contact at a seam to the triangle with the least s, and break ties by its
-    /// own numbering. If a flat face (k = 0) lies on several triangles, their s differ by flat_regularisation
-    /// only; the place of the contact is then known to some percent of the size with the default, to 1e-6 of
-    /// the size with 1e-4.
-    pub s: f64,
-    /// Bound on the error of s, with rounding to first order in doubles (as in struct pp_contact).
-    pub gap: f64,
-    /// Estimated bound on the distance of on_boundary to the exact x*, length.
-    pub point_bound: f64,
-    /// Distance from x* along the normal to the surface of A (YADE: penetrationDepth), length, >= 0 when
-    /// overlapping; NaN when separated.
-    pub overlap: f64,
-    /// Separated: lower bound on the distance between A and T, length; 0 when none is known. NaN when
-    /// overlapping.
-    pub distance: f64,
-    /// Unit normal from A to T: the gradient of S_A at x*; inside T exactly the normal of T or its opposite.
-    pub normal: [f64; 3],
-    /// Contact point, halfway between on_boundary and on_particle, world frame; x* when separated.
-    pub point: [f64; 3],
-    /// Contact point minus position of A: exact lever arm even far from the world origin.
-    pub branch: [f64; 3],
-    /// x*, world frame.
-    pub on_boundary: [f64; 3],
-    /// The point of the surface of A beyond x* along the normal, world frame; NaN when separated.
-    pub on_particle: [f64; 3],
-}
+const _: () = {
+    use Feature::{Edge0, Interior, Vertex0};
+    assert!(Interior as u32 == PP_ON_INTERIOR && Edge0 as u32 == PP_ON_EDGE && Vertex0 as u32 == PP_ON_VERTEX);
+};
 
 /// Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
 /// (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
@@ -89,7 +48,9 @@ pub unsafe extern "C" fn pp_contact_plane(
         let wall = Wall::new(*point, *normal).map_err(boundary_status)?;
         // SAFETY: NULL or exclusively ours for the call.
         let state = unsafe { state.as_mut() }.map(state_of);
-        write(contact_with_plane(a, &pose, &wall, &settings, state), &out)
+        let found = contact_with_plane(a, &pose, &wall, &settings, state);
+        out.write(found.map_err(|error| detect_status(&error))?);
+        Ok(())
     })
 }
 
@@ -115,13 +76,14 @@ pub unsafe extern "C" fn pp_contact_triangle(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let vertices = unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
+        let triangle = unsafe { triangle_from(vertices) }?;
         let out = unsafe { output(out) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
-        let triangle = triangle_of(vertices)?;
         // SAFETY: NULL or exclusively ours for the call.
         let state = unsafe { state.as_mut() }.map(state_of);
-        write(contact_with_triangle(a, &pose, &triangle, &settings, state), &out)
+        let found = contact_with_triangle(a, &pose, &triangle, &settings, state);
+        out.write(found.map_err(|error| detect_status(&error))?);
+        Ok(())
     })
 }
 
@@ -151,20 +113,13 @@ pub unsafe extern "C" fn pp_seam_slope(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let (own, other) = unsafe { (borrow(vertices.cast::<[f64; 9]>())?, borrow(neighbour.cast::<[f64; 9]>())?) };
+        let (own, other) = unsafe { (triangle_from(vertices)?, triangle_from(neighbour)?) };
         let (found, out) = unsafe { (output(share)?, output(sense)?) };
         let mut place = *unsafe { borrow(share) }?;
         let settings = settings_from(unsafe { settings.as_ref() })?;
         settings.validate().map_err(|_| PP_BAD_SETTING)?;
-        let feature = match feature {
-            PP_ON_EDGE..=3 => Feature::Edge((feature - PP_ON_EDGE) as u8),
-            PP_ON_VERTEX..=6 => Feature::Vertex((feature - PP_ON_VERTEX) as u8),
-            _ => return Err(PP_BAD_POINT),
-        };
-        if !(0.0..=1.0).contains(&place) {
-            return Err(PP_BAD_POINT);
-        }
-        let (own, other) = (triangle_of(own)?, triangle_of(other)?);
+        let feature = Feature::from_number(feature).filter(|feature| *feature != Feature::Interior);
+        let feature = feature.filter(|_| (0.0..=1.0).contains(&place)).ok_or(PP_BAD_POINT)?;
         let onwards = onwards_from_seam(a, &pose, &own, feature, &other, &settings, &mut place);
         found.write(place);
         out.write(match onwards {
@@ -193,55 +148,43 @@ pub unsafe extern "C" fn pp_flat_contact_area(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let contact = unsafe { borrow(contact) }?;
+        let contact = unsafe { flat_contact_of(contact) }?;
         let out = unsafe { output(area) }?;
         if !(1e-12..=0.1).contains(&relative_tolerance) {
             return Err(PP_BAD_SETTING);
         }
-        let branch = contact.branch.into();
-        let section = Section { branch_a: branch, branch_b: branch, normal: contact.normal.into() };
         out.write(match contact.kind {
-            PP_OVERLAPPING => section.area(a, &pose, a, &pose, relative_tolerance).ok_or(PP_BAD_POINT)?,
-            PP_SEPARATED => 0.0,
-            _ => return Err(PP_BAD_POINT),
+            Kind::Overlapping => {
+                Section::from(contact).area(a, &pose, a, &pose, relative_tolerance).ok_or(PP_BAD_POINT)?
+            }
+            Kind::Separated => 0.0,
         });
         Ok(())
     })
 }
 
-pub(super) fn boundary_status(error: BoundaryError) -> pp_status {
+fn boundary_status(error: BoundaryError) -> pp_status {
     match error {
         BoundaryError::Point(..) | BoundaryError::Normal(..) => PP_BAD_POINT,
         BoundaryError::Area(_) => PP_DEGENERATE_TRIANGLE,
     }
 }
 
-fn triangle_of(vertices: &[f64; 9]) -> Result<Triangle, pp_status> {
-    let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *vertices;
-    Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)
+/// # Safety
+/// `vertices` is NULL or points to 9 numbers.
+pub(super) unsafe fn triangle_from(vertices: *const f64) -> Result<Triangle, pp_status> {
+    Triangle::new(*unsafe { borrow(vertices.cast::<[[f64; 3]; 3]>()) }?).map_err(boundary_status)
 }
 
-fn write(found: Result<FlatContact, DetectError>, out: &Output<pp_flat_contact>) -> Result<(), pp_status> {
-    let found = found.map_err(|error| detect_status(&error))?;
-    out.write(pp_flat_contact {
-        kind: kind_code(found.kind),
-        feature: match found.feature {
-            Feature::Interior => PP_ON_INTERIOR,
-            Feature::Edge(i) => PP_ON_EDGE + u32::from(i),
-            Feature::Vertex(i) => PP_ON_VERTEX + u32::from(i),
-        },
-        flags: found.flags.bits(),
-        iterations: found.iterations,
-        s: found.s,
-        gap: found.gap,
-        point_bound: found.point_bound,
-        overlap: found.overlap,
-        distance: found.distance,
-        normal: found.normal.into(),
-        point: found.point.into(),
-        branch: found.branch.into(),
-        on_boundary: found.on_boundary.into(),
-        on_particle: found.on_particle.into(),
-    });
-    Ok(())
+/// A contact that a caller hands back: what is no enum in Rust was not written by this library.
+///
+/// # Safety
+/// `contact` is NULL or points to a contact.
+pub(super) unsafe fn flat_contact_of<'a>(contact: *const pp_flat_contact) -> Result<&'a FlatContact, pp_status> {
+    // SAFETY: its first two fields are words; they are looked at before they count as enums.
+    let [kind, feature] = *unsafe { borrow(contact.cast::<[u32; 2]>()) }?;
+    match (kind, Feature::from_number(feature)) {
+        (1..=2, Some(_)) => unsafe { borrow(contact) },
+        _ => Err(PP_BAD_POINT),
+    }
 }

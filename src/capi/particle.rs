@@ -1,7 +1,7 @@
 //! Particles over the C boundary: creation, release, and the definition that they were created from.
 
 use super::convert::planes_from;
-use super::fence::{borrow, fenced, output, write_rows};
+use super::fence::{borrow, fenced, read, release, write_rows};
 use super::message::{Refusal, create};
 use super::status::*;
 use crate::{Particle, ParticleError, Plane};
@@ -82,10 +82,8 @@ pub unsafe extern "C" fn pp_particle_scaled(
 /// Pointers: particle is NULL or came from pp_particle_new and was not released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_free(particle: *mut pp_particle) {
-    if !particle.is_null() {
-        // SAFETY: by contract this came from Box::into_raw and is freed once.
-        drop(unsafe { Box::from_raw(particle) });
-    }
+    // SAFETY: as promised.
+    unsafe { release(particle) }
 }
 
 /// Rounding radius r as given to pp_particle_new, length.
@@ -93,11 +91,8 @@ pub unsafe extern "C" fn pp_particle_free(particle: *mut pp_particle) {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_rounding_radius(particle: *const pp_particle, r: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(r) }?.write(particle.rounding_radius());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, r, |particle| particle.0.rounding_radius()) }
 }
 
 /// Sphericity k as given to pp_particle_new, no unit.
@@ -105,11 +100,8 @@ pub unsafe extern "C" fn pp_particle_rounding_radius(particle: *const pp_particl
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_sphericity(particle: *const pp_particle, k: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(k) }?.write(particle.sphericity());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, k, |particle| particle.0.sphericity()) }
 }
 
 /// Radius R of the shadow sphere as given to pp_particle_new, length.
@@ -117,11 +109,8 @@ pub unsafe extern "C" fn pp_particle_sphericity(particle: *const pp_particle, k:
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_shadow_radius(particle: *const pp_particle, shadow_radius: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(shadow_radius) }?.write(particle.shadow_radius());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, shadow_radius, |particle| particle.0.shadow_radius()) }
 }
 
 /// Planes as given to pp_particle_new, without those that are one with an earlier one: rows of a, b, c, d,

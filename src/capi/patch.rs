@@ -1,13 +1,12 @@
 //! The contact patch.
 
 use super::convert::{contact_of, pose_from};
-use super::fence::{Output, borrow, check_room, fenced, output, outputs};
-use super::flat::{boundary_status, pp_flat_contact};
+use super::fence::{Output, borrow, check_room, fenced, output, outputs, read};
+use super::flat::{flat_contact_of, triangle_from};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
-use crate::contact::contact::Kind;
-use crate::{FlatContact, Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PatchState, Triangle};
+use crate::{Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PatchState};
 use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use std::cell::RefCell;
 
@@ -76,20 +75,6 @@ pub struct pp_patch {
     pub energy: f64,
 }
 
-/// A point of quadrature on a patch.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_patch_point {
-    /// Its place minus the point of the contact (of a boundary: on_boundary), world axes.
-    pub position: [f64; 3],
-    /// Its share of the area, length^2.
-    pub area: f64,
-    /// p/K there, length.
-    pub depth: f64,
-    /// Unit normal of the patch, from A to B, world axes.
-    pub normal: [f64; 3],
-}
-
 /// What one ordered pair (A, B), or a particle A and a flat boundary, keeps of its patch. While no point of it
 /// has moved by more than 0.3 sqrt(tolerance) of the largest depth, the next ones follow from it without an
 /// integral.
@@ -128,11 +113,8 @@ thread_local! {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_depth_length(particle: *const pp_particle, length: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = unsafe { &borrow(particle)?.0 };
-        unsafe { output(length) }?.write(particle.depth_length());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, length, |particle| particle.0.depth_length()) }
 }
 
 /// The patch of an overlapping contact of A with B.
@@ -195,13 +177,13 @@ pub unsafe extern "C" fn pp_patch_on_plane(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let contact = flat(unsafe { borrow(contact) }?)?;
+        let contact = unsafe { flat_contact_of(contact) }?;
         let settings = settings(tolerance, with_energy)?;
         let out = unsafe { output(patch) }?;
         let state = unsafe { state_of(state, capacity) };
         let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
-            Some(state) => state.patch_on_plane(a, &pose, &contact, &settings, scratch),
-            None => patch_on_plane(a, &pose, &contact, &settings, scratch, visit),
+            Some(state) => state.patch_on_plane(a, &pose, contact, &settings, scratch),
+            None => patch_on_plane(a, &pose, contact, &settings, scratch, visit),
         };
         unsafe { answer(run, &out, points, capacity, count) }
     })
@@ -233,16 +215,15 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let [x0, y0, z0, x1, y1, z1, x2, y2, z2] = *unsafe { borrow(vertices.cast::<[f64; 9]>()) }?;
-        let triangle = Triangle::new([[x0, y0, z0], [x1, y1, z1], [x2, y2, z2]]).map_err(boundary_status)?;
-        let contact = flat(unsafe { borrow(contact) }?)?;
+        let triangle = unsafe { triangle_from(vertices) }?;
+        let contact = unsafe { flat_contact_of(contact) }?;
         let settings = settings(tolerance, with_energy)?;
         let front = is_on(from_front)?;
         let out = unsafe { output(patch) }?;
         let state = unsafe { state_of(state, capacity) };
         let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
-            Some(state) => state.patch_on_triangle(a, &pose, &triangle, front, &contact, &settings, scratch),
-            None => patch_on_triangle(a, &pose, &triangle, front, &contact, &settings, scratch, visit),
+            Some(state) => state.patch_on_triangle(a, &pose, &triangle, front, contact, &settings, scratch),
+            None => patch_on_triangle(a, &pose, &triangle, front, contact, &settings, scratch, visit),
         };
         unsafe { answer(run, &out, points, capacity, count) }
     })
@@ -259,13 +240,7 @@ unsafe fn answer(
     capacity: usize,
     count: *mut usize,
 ) -> Result<(), pp_status> {
-    let point_to = |point: PatchPoint| pp_patch_point {
-        position: point.position.into(),
-        area: point.area,
-        depth: point.depth,
-        normal: point.normal.into(),
-    };
-    let patch = unsafe { with_points(run, |patch| patch.points, point_to, points, capacity, count) }?;
+    let patch = unsafe { with_points(run, |patch| patch.points, points, capacity, count) }?;
     out.write(patch_to(&patch));
     Ok(())
 }
@@ -275,11 +250,10 @@ unsafe fn answer(
 ///
 /// # Safety
 /// points is NULL or valid for writing `capacity` points, `count` NULL or valid for writing.
-pub(super) unsafe fn with_points<Patch, Point, Out>(
+pub(super) unsafe fn with_points<Patch, Point>(
     run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(Point)) -> Result<Patch, PatchError>,
     number: impl Fn(&Patch) -> usize,
-    point_to: impl Fn(Point) -> Out,
-    points: *mut Out,
+    points: *mut Point,
     capacity: usize,
     count: *mut usize,
 ) -> Result<Patch, pp_status> {
@@ -289,7 +263,7 @@ pub(super) unsafe fn with_points<Patch, Point, Out>(
     let mut next = 0;
     let mut visit = |point: Point| {
         if let Some(place) = places.get_mut(next) {
-            place.write(point_to(point));
+            place.write(point);
         }
         next += 1;
     };
@@ -324,20 +298,6 @@ fn patch_to(patch: &Patch) -> pp_patch {
         largest_depth: patch.largest_depth,
         energy: patch.energy,
     }
-}
-
-pub(super) fn flat(contact: &pp_flat_contact) -> Result<FlatContact, pp_status> {
-    Ok(FlatContact::for_patch(
-        kind(contact.kind)?,
-        contact.s,
-        contact.overlap,
-        contact.normal.into(),
-        contact.on_boundary.into(),
-    ))
-}
-
-pub(super) fn kind(kind: i32) -> Result<Kind, pp_status> {
-    if kind == PP_OVERLAPPING { Ok(Kind::Overlapping) } else { Err(PP_BAD_POINT) }
 }
 
 pub(super) fn is_on(flag: u32) -> Result<bool, pp_status> {

@@ -1,11 +1,11 @@
 //! Derivatives of the force and the torques of a contact patch.
 
 use super::convert::{contact_of, pose_from};
-use super::derivative::{rows, triangle_from};
+use super::derivative::{boundary_from, rows};
 use super::fence::{Output, borrow, fenced, output};
-use super::flat::pp_flat_contact;
+use super::flat::flat_contact_of;
 use super::particle::pp_particle;
-use super::patch::{flat, is_on, settings, with_points};
+use super::patch::{is_on, settings, with_points};
 use super::status::*;
 use super::types::*;
 use crate::{
@@ -74,13 +74,13 @@ pub unsafe extern "C" fn pp_patch_derivatives_on_boundary(
 ) -> pp_status {
     fenced(|| {
         let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let (triangle, front) = (unsafe { triangle_from(vertices) }?, is_on(from_front)?);
-        let contact = flat(unsafe { borrow(contact) }?)?;
+        let (triangle, front) = (unsafe { boundary_from(vertices) }?, is_on(from_front)?);
+        let contact = unsafe { flat_contact_of(contact) }?;
         let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, 0)? };
         let out = unsafe { output(out) }?;
         write([contact.on_boundary - pose.position(); 2], &out, |scratch, visit| match &triangle {
-            Some(triangle) => patch_on_triangle(a, &pose, triangle, front, &contact, &settings, scratch, visit),
-            None => patch_on_plane(a, &pose, &contact, &settings, scratch, visit),
+            Some(triangle) => patch_on_triangle(a, &pose, triangle, front, contact, &settings, scratch, visit),
+            None => patch_on_plane(a, &pose, contact, &settings, scratch, visit),
         })
     })
 }
@@ -90,8 +90,7 @@ fn write(
     out: &Output<pp_patch_derivatives>,
     run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
 ) -> Result<(), pp_status> {
-    let none = ptr::null_mut::<u8>();
-    let patch = unsafe { with_points(run, |patch: &Patch| patch.points, |_| 0_u8, none, 0, ptr::null_mut()) }?;
+    let patch = unsafe { with_points(run, |patch: &Patch| patch.points, ptr::null_mut(), 0, ptr::null_mut()) }?;
     let found = patch_derivatives(&patch, to_point).ok_or(PP_NO_DERIVATIVE)?;
     out.write(pp_patch_derivatives {
         force: rows(&found.force),

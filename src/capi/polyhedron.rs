@@ -3,7 +3,7 @@
 
 use super::builder::{create_shape, pp_built};
 use super::convert::planes_from;
-use super::fence::{array, borrow, fenced, output, write_all, write_rows};
+use super::fence::{array, borrow, fenced, output, release, write_all, write_rows};
 use super::message::{Refusal, create, explained};
 use super::particle::pp_particle;
 use super::status::*;
@@ -139,10 +139,8 @@ pub unsafe extern "C" fn pp_polyhedron_regular_solid(
 /// Pointers: polyhedron is NULL or came from a pp_polyhedron function and was not released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_polyhedron_free(polyhedron: *mut pp_polyhedron) {
-    if !polyhedron.is_null() {
-        // SAFETY: by contract this came from Box::into_raw and is freed once.
-        drop(unsafe { Box::from_raw(polyhedron) });
-    }
+    // SAFETY: as promised.
+    unsafe { release(polyhedron) }
 }
 
 /// Planes of the faces: rows of a, b, c, h, unit normals; half-spaces in the order given, other faces by

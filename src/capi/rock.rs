@@ -1,7 +1,7 @@
 //! Rock masses over the C boundary: cut once, then read by the functions of `rock_arrays`.
 
 use super::convert::planes_from;
-use super::fence::array;
+use super::fence::{array, release};
 use super::message::create;
 use super::rock_joints::{joints_from, pp_joint};
 use super::status::*;
@@ -119,10 +119,8 @@ pub unsafe extern "C" fn pp_rock_new(
 /// Pointers: rock is NULL or came from pp_rock_new and was not released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_rock_free(rock: *mut pp_rock) {
-    if !rock.is_null() {
-        // SAFETY: by contract this came from Box::into_raw and is freed once.
-        drop(unsafe { Box::from_raw(rock) });
-    }
+    // SAFETY: as promised.
+    unsafe { release(rock) }
 }
 
 fn settings_from(settings: Option<&pp_slice_settings>) -> Result<SliceSettings, RockError> {

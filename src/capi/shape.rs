@@ -1,7 +1,7 @@
 //! What can be asked of a particle: potential, bounds, surface, mass.
 
 use super::convert::{finite, pose_from};
-use super::fence::{borrow, fenced, output, write_rows};
+use super::fence::{borrow, fenced, output, read, write_rows};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::{pp_mass_properties, pp_pose};
@@ -64,11 +64,8 @@ pub unsafe extern "C" fn pp_particle_box(
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_bounding_radius(particle: *const pp_particle, radius: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(radius) }?.write(particle.bounding_radius());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, radius, |particle| particle.0.bounding_radius()) }
 }
 
 /// Whether the planes alone enclose a volume: 1, or 0 where only the shadow sphere bounds the particle,
@@ -78,11 +75,8 @@ pub unsafe extern "C" fn pp_particle_bounding_radius(particle: *const pp_particl
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_planes_enclose(particle: *const pp_particle, enclose: *mut i32) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(enclose) }?.write(particle.planes_enclose().into());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, enclose, |particle| particle.0.planes_enclose().into()) }
 }
 
 /// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.

@@ -113,15 +113,25 @@ pub struct pp_pair_state {
     pub last_contact: [f64; 40],
 }
 
-/// The answers of the library itself, of which tests/header.rs writes the structs of the header.
+/// The structs of the library itself, of which tests/header.rs writes those of the header.
 /// cbindgen:ignore
 pub type pp_contact = crate::Contact;
 /// cbindgen:ignore
 pub type pp_closest = crate::ClosestPoint;
 /// cbindgen:ignore
+pub type pp_flat_contact = crate::FlatContact;
+/// cbindgen:ignore
+pub type pp_patch_point = crate::PatchPoint;
+/// cbindgen:ignore
+pub type pp_contact_weights = crate::ContactWeights;
+/// cbindgen:ignore
+pub type pp_pose_gradient = crate::PoseGradient;
+/// cbindgen:ignore
 pub type pp_contact_2d = crate::planar::Contact;
 /// cbindgen:ignore
 pub type pp_closest_2d = crate::planar::ClosestPoint;
+/// cbindgen:ignore
+pub type pp_patch_point_2d = crate::planar::PatchPoint;
 
 /// Volume and inertia of a particle of unit density, in its local frame.
 #[repr(C)]

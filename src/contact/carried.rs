@@ -18,7 +18,7 @@ use crate::model::local_model::{self, LocalModel, Piece};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 use crate::pair::pair::Pair;
-use crate::pair::pair_state::{KnownPiece, LastContact, PairState, Remembered};
+use crate::pair::pair_state::{How, KnownPiece, LastContact, PairState, Remembered};
 use crate::pair::separation;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -455,7 +455,7 @@ impl PairState {
         let Moved { optimum, within, .. } = self.last_contact.moved(&pair, last, room, room)?;
         let low = self.last_contact.low(&optimum, &within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
-        self.remember(Remembered { x, lambda, overlapping: false, balanced: false, ..last });
+        self.remember(Remembered { x, lambda, how: How::Apart, ..last });
         let distance = separation::distance_of_scale(a.0, b.0, low);
         let flags = Flags::REJECTED.with(Flags::WARM).with(Flags::CARRIED);
         let apart = Contact::separated(Formulation::Midway, low);

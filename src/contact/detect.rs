@@ -10,7 +10,7 @@ use crate::model::local_model::Start;
 use crate::model::problem::Problem;
 use crate::pair::hull;
 use crate::pair::pair::Pair;
-use crate::pair::pair_state::{LastContact, PairState, Remembered, from_memory_or_anew};
+use crate::pair::pair_state::{How, LastContact, PairState, Remembered, from_memory_or_anew};
 use crate::pair::separation::{self, Apart};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
@@ -107,12 +107,12 @@ fn anew<'o>(
     out: &'o mut MaybeUninit<Contact>,
 ) -> Result<&'o mut Contact, DetectError> {
     let last = state.as_deref().and_then(|state| state.remembered(a, b));
-    let known = last.filter(|last| !last.overlapping && !settings.solve_separated);
+    let known = last.filter(|last| last.how != How::Overlapping && !settings.solve_separated);
     if let Some(proof) = known.and_then(|last| still_apart(a, b, &last)) {
         return Ok(out.write(rejected(settings, proof)));
     }
     let pair = Pair::new(a.0, a.1, b.0, b.1);
-    if let Some(proof) = separated(&pair, settings, last.is_some_and(|last| last.overlapping)) {
+    if let Some(proof) = separated(&pair, settings, last.is_some_and(|last| last.how == How::Overlapping)) {
         return Ok(out.write(rejected(settings, proof)));
     }
     let solve = |remembers| solved(&pair, b.1, settings, state.as_deref_mut(), remembers);
@@ -122,9 +122,9 @@ fn anew<'o>(
 /// The proof that kept the pair apart, if it does so still.
 #[inline(always)]
 fn still_apart(a: (&Particle, &Pose), b: (&Particle, &Pose), last: &Remembered) -> Option<Apart> {
-    match last.balanced {
-        true => hull::still_balanced(a, b, &last.x, &last.closest),
-        false => separation::still_apart(a, b, &last.x),
+    match last.how {
+        How::Balanced => hull::still_balanced(a, b, &last.x, &last.closest),
+        _ => separation::still_apart(a, b, &last.x),
     }
 }
 
@@ -158,7 +158,7 @@ fn solved(
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
     // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are
     // closer than planes can tell.
-    let last = last.filter(|last| !last.balanced || settings.solve_separated || !call.is_sharp());
+    let last = last.filter(|last| last.how != How::Balanced || settings.solve_separated || !call.is_sharp());
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -172,7 +172,7 @@ fn solved(
                 apart.filter(|_| !settings.solve_separated && settings.back_end == BackEnd::Fast)
             {
                 let Start { x, lambda } = start;
-                remember(state, Remembered { x, lambda, overlapping: false, balanced: true, closest: planes });
+                remember(state, Remembered { x, lambda, how: How::Balanced, closest: planes });
                 let flags = call.flags.with(Flags::REJECTED);
                 return Ok(Contact { flags, distance, ..Contact::separated(settings.formulation, 1.0) });
             }
@@ -180,7 +180,7 @@ fn solved(
         }
     };
     let mut model = call.model(&start, Problem::Midway);
-    let overlapped = last.filter(|last| last.overlapping && settings.formulation == Formulation::Closest);
+    let overlapped = last.filter(|last| last.how == How::Overlapping && settings.formulation == Formulation::Closest);
     if let Some(points) = overlapped.and_then(|last| call.closest_from_memory(&last, &model)) {
         remember(state, closest::midway_between(&points));
         call.flag_free(&points);
@@ -204,7 +204,7 @@ fn solved(
     }
     let overlapping = !separated && scale.s < 1.0;
     let Solution { x, lambda, values, .. } = midway.solution;
-    let mut remembered = Remembered { x, lambda, overlapping, balanced: false, closest: [1.0; 2] };
+    let mut remembered = Remembered { x, lambda, how: How::solved(overlapping), closest: [1.0; 2] };
     let carries_on = settings.carries_on() && !call.flags.contains(Flags::EXTENDED);
     if separated {
         if let Some(state) = state.as_deref_mut().filter(|_| carries_on && scale.s - scale.gap > 1.0) {
@@ -222,10 +222,11 @@ fn solved(
         Some(points) => {
             // By rounding, midway and closest may lie on different sides of 1. Where midway does not tell, the scales
             // that are answered do.
-            remembered.overlapping = if scale.tells_the_side() { overlapping } else { closest::is_overlap(points) };
+            let overlapping = if scale.tells_the_side() { overlapping } else { closest::is_overlap(points) };
+            remembered.how = How::solved(overlapping);
             remembered = closest::seen_from(remembered, values, points);
             call.flag_free(points);
-            LocalContact::closest(pair, points, settings.weight_on_a, remembered.overlapping)
+            LocalContact::closest(pair, points, settings.weight_on_a, overlapping)
         }
         None => {
             let local = LocalContact::midway(&call, &midway, scale, overlapping).ok_or_else(DetectError::no_surface)?;
@@ -237,7 +238,7 @@ fn solved(
     };
     remember(state, remembered);
     let answer = summary(&call);
-    let distance = if remembered.overlapping { answer.distance } else { known_distance(pair, scale.low) };
+    let distance = if remembered.how == How::Overlapping { answer.distance } else { known_distance(pair, scale.low) };
     Ok(local.placed(pair, pose_b, Contact { distance, ..answer }))
 }
 

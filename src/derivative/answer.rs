@@ -55,29 +55,32 @@ impl ContactDerivatives {
     };
 }
 
-/// Weights on the numbers of a contact: the derivative of a cost in them. Zero by default; weights on what is NaN in
-/// the contact must be 0.
+/// Derivatives of the caller's cost with respect to the fields of a contact. For a field that is NaN in the
+/// contact the derivative must be 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct ContactWeights {
-    /// On s.
+    /// In s.
     pub s: f64,
-    /// On s_b.
+    /// In s_b.
     pub s_b: f64,
-    /// On the overlap.
+    /// In overlap.
     pub overlap: f64,
-    /// On the normal.
+    /// In normal.
     pub normal: Vector3<f64>,
-    /// On the point.
+    /// In point.
     pub point: Vector3<f64>,
-    /// On the point on the surface of A.
+    /// In point_on_a (of a boundary: on_particle).
     pub point_on_a: Vector3<f64>,
-    /// On the point on the surface of B.
+    /// In point_on_b (of a boundary: on_boundary).
     pub point_on_b: Vector3<f64>,
 }
 
-/// The derivative of a cost in the pose of a body.
+/// Derivatives of a cost in the pose of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct PoseGradient {
     /// In a shift, world axes.
     pub shift: Vector3<f64>,

@@ -105,14 +105,13 @@ fn linearised<T>(
     let to_optimum = if is_overlap { contact.branch - 0.5 * contact.overlap * contact.normal } else { contact.branch };
     let body = Potential::new((a, pose), least_sphericity(settings, contact.flags));
     let place = Place::new(&body, to_optimum, [contact.point_bound, 0.0]);
-    let (dimensions, along) = match (contact.feature, triangle) {
-        (Feature::Interior, _) => (2, None),
-        (Feature::Edge(i), Some(triangle)) => {
-            let [from, to] = [0, 1].map(|j| triangle.vertices()[(usize::from(i) + j) % 3]);
+    let (dimensions, along) = match (contact.feature.edge(), triangle) {
+        (None, _) => (if contact.feature == Feature::Interior { 2 } else { 0 }, None),
+        (Some(i), Some(triangle)) => {
+            let [from, to] = [0, 1].map(|j| triangle.vertices()[(i + j) % 3]);
             (1, Some((to - from).normalize()))
         }
-        (Feature::Edge(_), None) => return Err(DerivativeError::NoTriangle),
-        (Feature::Vertex(_), _) => (0, None),
+        (Some(_), None) => return Err(DerivativeError::NoTriangle),
     };
     let optimum = Optimum::new(Problem::OnBoundary(dimensions), [Some(place), None], &contact.normal, along)?;
     optimum.check()?;

@@ -12,29 +12,6 @@ use std::ops::Neg;
 /// Two doubles on which the same is done at once.
 pub type Twin = AutoF64x2;
 
-/// Whether all numbers are the same: one that does not apply is NaN in both.
-pub(crate) fn same(a: &[f64], b: &[f64]) -> bool {
-    a.iter().zip(b).all(|(a, b)| a == b || (a.is_nan() && b.is_nan()))
-}
-
-/// Equality of an answer: of what is no number, of numbers and of vectors. What does not apply, NaN, is equal to
-/// itself.
-macro_rules! equality {
-    ($answer:ty: $($exact:ident),*; $($number:ident),*; $($vector:ident),*) => {
-        /// What does not apply, NaN, counts as equal.
-        impl PartialEq for $answer {
-            fn eq(&self, other: &Self) -> bool {
-                use $crate::linalg::number::same;
-                // Names every field.
-                let Self { $($exact,)* $($number,)* $($vector,)* } = self;
-                true $(&& *$exact == other.$exact)* $(&& same(&[*$number], &[other.$number]))*
-                    $(&& same($vector.as_slice(), other.$vector.as_slice()))*
-            }
-        }
-    };
-}
-pub(crate) use equality;
-
 /// A vector of which nothing is known.
 pub(crate) const UNKNOWN_VECTOR: Vector3<f64> = unknown_vector();
 

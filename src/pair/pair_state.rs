@@ -43,14 +43,28 @@ pub(crate) struct Remembered {
     pub x: Vector3<f64>,
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
-    /// Whether the particles overlapped: if so, most separation tests are left out.
-    pub overlapping: bool,
-    /// Whether planes in balance kept them apart.
-    pub balanced: bool,
-    /// Where planes in balance kept them apart: which ones, by [`crate::pair::hull::Hull::places`]. Else factors from
-    /// the λ of P1 and P2 that `solver::closest::from_between` predicts to theirs; used where the products are in the
-    /// range of λ.
+    pub how: How,
+    /// Of [`How::Balanced`] which planes, by [`crate::pair::hull::Hull::places`]. Else factors from the λ of P1 and P2
+    /// that `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
     pub closest: [f64; 2],
+}
+
+/// How a pair was found; the sixth number of [`PairState::into_raw`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum How {
+    Apart = 0,
+    /// Most separation tests are left out at the next call.
+    Overlapping = 1,
+    /// Apart by planes in balance.
+    Balanced = 2,
+}
+
+impl How {
+    /// Of a solution whose particles overlap or do not.
+    #[inline(always)]
+    pub fn solved(overlapping: bool) -> Self {
+        if overlapping { Self::Overlapping } else { Self::Apart }
+    }
 }
 
 /// Both potentials about the last contact that was solved.
@@ -97,9 +111,6 @@ impl PairState {
     /// Marks a solution that is there; all-zero bytes are an empty state.
     const FILLED: f64 = 1.0;
 
-    /// The sixth number where planes in balance kept the pair apart; 1 where it overlapped.
-    const BALANCED: f64 = 2.0;
-
     /// With a remembered solution, from the eight numbers of [`Self::into_raw`]. Whatever is none is as good as an
     /// empty state.
     pub fn from_raw(solution: [f64; 8]) -> Self {
@@ -141,16 +152,19 @@ impl PairState {
     /// The remembered solution of a state that was found to have one.
     #[inline(always)]
     pub(crate) fn unpacked(&self) -> Remembered {
-        let [_, x, y, z, lambda, overlapping, of_p1, of_p2] = self.solution;
-        let (overlapping, balanced) = (overlapping == 1.0, overlapping == Self::BALANCED);
-        Remembered { x: Vector3::new(x, y, z), lambda, overlapping, balanced, closest: [of_p1, of_p2] }
+        let [_, x, y, z, lambda, how, of_p1, of_p2] = self.solution;
+        let how = match how {
+            1.0 => How::Overlapping,
+            2.0 => How::Balanced,
+            _ => How::Apart,
+        };
+        Remembered { x: Vector3::new(x, y, z), lambda, how, closest: [of_p1, of_p2] }
     }
 
     #[inline(always)]
     pub(crate) fn remember(&mut self, remembered: Remembered) {
-        let Remembered { x, lambda, overlapping, balanced, closest: [of_p1, of_p2] } = remembered;
-        let kept = if balanced { Self::BALANCED } else { f64::from(u8::from(overlapping)) };
-        self.solution = [Self::FILLED, x.x, x.y, x.z, lambda, kept, of_p1, of_p2];
+        let Remembered { x, lambda, how, closest: [of_p1, of_p2] } = remembered;
+        self.solution = [Self::FILLED, x.x, x.y, x.z, lambda, f64::from(how as u8), of_p1, of_p2];
     }
 }
 

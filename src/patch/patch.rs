@@ -62,17 +62,18 @@ pub struct Patch {
     pub rays: usize,
 }
 
-/// A point of quadrature on Σ.
+/// A point of quadrature on a patch.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct PatchPoint {
-    /// Its place minus the contact point, world axes.
+    /// Its place minus the point of the contact (of a boundary: on_boundary), world axes.
     pub position: Vector3<f64>,
-    /// Its share of the area, length².
+    /// Its share of the area, length^2.
     pub area: f64,
-    /// p/K = ℓ (1 − s), length.
+    /// p/K = length (1 - s) there, length.
     pub depth: f64,
-    /// Unit normal of Σ, from A to B, world axes.
+    /// Unit normal of the patch, from A to B, world axes.
     pub normal: Vector3<f64>,
 }
 

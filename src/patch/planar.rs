@@ -56,17 +56,18 @@ pub struct Patch {
     pub points: usize,
 }
 
-/// A point of quadrature on Σ.
+/// A point of quadrature on a patch of the plane.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
+#[repr(C)]
 pub struct PatchPoint {
     /// Its place minus the contact point, world axes.
     pub position: Vector2<f64>,
     /// Its share of the length.
     pub length: f64,
-    /// p/K = ℓ (1 − s), length.
+    /// p/K = depth_length (1 - s) there, length.
     pub depth: f64,
-    /// Unit normal of Σ, from A to B, world axes.
+    /// Unit normal of the patch, from A to B, world axes.
     pub normal: Vector2<f64>,
 }
 

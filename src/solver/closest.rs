@@ -12,7 +12,7 @@ use crate::model::dual_search;
 use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
-use crate::pair::pair_state::Remembered;
+use crate::pair::pair_state::{How, Remembered};
 use crate::settings::BackEnd;
 use crate::solver::call::{Call, SolveError, Solved};
 use crate::solver::newton;
@@ -220,13 +220,7 @@ pub(crate) fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
     // On the way from one to the other S is the same quadratic.
     let way = p1.x - p2.x;
     let value = |i: usize| 0.5 * (p1.values[i] + p2.values[i]) - 0.125 * (p1.gradients[i] - p2.gradients[i]).dot(&way);
-    let midway = Remembered {
-        x: p2.x + 0.5 * way,
-        lambda: square.sqrt(),
-        overlapping: true,
-        balanced: false,
-        closest: [1.0; 2],
-    };
+    let midway = Remembered { x: p2.x + 0.5 * way, lambda: square.sqrt(), how: How::Overlapping, closest: [1.0; 2] };
     seen_from(midway, [value(0), value(1)], points)
 }
 

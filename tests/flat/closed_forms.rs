@@ -10,12 +10,12 @@ const VERTICES: [[f64; 3]; 3] = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.
 /// Where the nearest point of the triangle is inside, on each edge and at each vertex.
 const PLACES: [([f64; 3], Feature, [f64; 3]); 7] = [
     ([0.25, 0.25, 0.75], Feature::Interior, [0.25, 0.25, 0.0]),
-    ([0.5, -0.5, 0.25], Feature::Edge(0), [0.5, 0.0, 0.0]),
-    ([1.0, 1.0, 0.25], Feature::Edge(1), [0.5, 0.5, 0.0]),
-    ([-0.5, 0.25, -0.25], Feature::Edge(2), [0.0, 0.25, 0.0]),
-    ([-0.25, -0.5, 0.5], Feature::Vertex(0), [0.0, 0.0, 0.0]),
-    ([1.5, -0.25, -0.25], Feature::Vertex(1), [1.0, 0.0, 0.0]),
-    ([-0.5, 1.25, 0.25], Feature::Vertex(2), [0.0, 1.0, 0.0]),
+    ([0.5, -0.5, 0.25], Feature::Edge0, [0.5, 0.0, 0.0]),
+    ([1.0, 1.0, 0.25], Feature::Edge1, [0.5, 0.5, 0.0]),
+    ([-0.5, 0.25, -0.25], Feature::Edge2, [0.0, 0.25, 0.0]),
+    ([-0.25, -0.5, 0.5], Feature::Vertex0, [0.0, 0.0, 0.0]),
+    ([1.5, -0.25, -0.25], Feature::Vertex1, [1.0, 0.0, 0.0]),
+    ([-0.5, 1.25, 0.25], Feature::Vertex2, [0.0, 1.0, 0.0]),
 ];
 
 #[test]

@@ -263,11 +263,11 @@ fn a_point_ten_bounds_off_is_found() {
 #[test]
 fn a_wrong_edge_is_found() {
     let solver: walls::Solver = spoilt!(|c: &mut FlatContact| {
-        if let Feature::Edge(i) = c.feature {
-            c.feature = Feature::Edge((i + 1) % 3);
+        if let Some(i) = c.feature.edge() {
+            c.feature = [Feature::Edge0, Feature::Edge1, Feature::Edge2][(i + 1) % 3];
         }
     });
-    let on_edge = |c: &FlatContact| matches!(c.feature, Feature::Edge(_)) && c.s.is_finite();
+    let on_edge = |c: &FlatContact| c.feature.edge().is_some() && c.s.is_finite();
     let (judged, found) = planted(solver, on_edge, Fault::OffBoundary);
     assert!(found * 100 >= judged * 90, "{found} of {judged}");
 }

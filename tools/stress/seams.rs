@@ -30,10 +30,10 @@ struct Written<'a> {
 
 /// The part of a mesh on which a contact lies: the numbers of its vertices, in order.
 fn part(feature: Feature, triangle: &[usize; 3]) -> Vec<usize> {
-    let mut part = match feature {
-        Feature::Interior => triangle.to_vec(),
-        Feature::Edge(i) => vec![triangle[usize::from(i)], triangle[(usize::from(i) + 1) % 3]],
-        Feature::Vertex(i) => vec![triangle[usize::from(i)]],
+    let mut part = match (feature.edge(), feature.vertex()) {
+        (Some(i), _) => vec![triangle[i], triangle[(i + 1) % 3]],
+        (None, Some(i)) => vec![triangle[i]],
+        (None, None) => triangle.to_vec(),
     };
     part.sort_unstable();
     part

@@ -449,10 +449,10 @@ fn told(truth: &Truth) -> String {
 }
 
 pub fn part(feature: Feature) -> Part {
-    match feature {
-        Feature::Interior => Part::Inside,
-        Feature::Edge(i) => Part::Edge(usize::from(i)),
-        Feature::Vertex(i) => Part::Vertex(usize::from(i)),
+    match (feature.edge(), feature.vertex()) {
+        (Some(i), _) => Part::Edge(i),
+        (None, Some(i)) => Part::Vertex(i),
+        (None, None) => Part::Inside,
     }
 }
 

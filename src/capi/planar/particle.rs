@@ -1,7 +1,7 @@
 //! Creation and release of particles of the plane, and the definition that they were created from.
 
 use crate::ParticleError;
-use crate::capi::fence::{array, borrow, fenced, output, write_rows};
+use crate::capi::fence::{array, borrow, fenced, read, release, write_rows};
 use crate::capi::message::create;
 use crate::capi::particle::PP_MAX_PLANES;
 use crate::capi::status::*;
@@ -88,10 +88,8 @@ pub unsafe extern "C" fn pp_particle_new_polygon_2d(
 /// released yet.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_free_2d(particle: *mut pp_particle_2d) {
-    if !particle.is_null() {
-        // SAFETY: by contract this came from Box::into_raw and is freed once.
-        drop(unsafe { Box::from_raw(particle) });
-    }
+    // SAFETY: as promised.
+    unsafe { release(particle) }
 }
 
 /// Rounding radius r as given, length.
@@ -99,11 +97,8 @@ pub unsafe extern "C" fn pp_particle_free_2d(particle: *mut pp_particle_2d) {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_rounding_radius_2d(particle: *const pp_particle_2d, r: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(r) }?.write(particle.rounding_radius());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, r, |particle| particle.0.rounding_radius()) }
 }
 
 /// Sphericity k as given, no unit.
@@ -111,11 +106,8 @@ pub unsafe extern "C" fn pp_particle_rounding_radius_2d(particle: *const pp_part
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_sphericity_2d(particle: *const pp_particle_2d, k: *mut f64) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(k) }?.write(particle.sphericity());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, k, |particle| particle.0.sphericity()) }
 }
 
 /// Radius R of the shadow circle as given, or that through the outermost corner of a polygon, length.
@@ -126,11 +118,8 @@ pub unsafe extern "C" fn pp_particle_shadow_radius_2d(
     particle: *const pp_particle_2d,
     shadow_radius: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(shadow_radius) }?.write(particle.shadow_radius());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, shadow_radius, |particle| particle.0.shadow_radius()) }
 }
 
 /// Lines as given, or the sides of a polygon less r: rows of a, b, d, local frame.

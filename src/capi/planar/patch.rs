@@ -7,7 +7,7 @@ use crate::capi::convert::contact_of;
 use crate::capi::fence::{borrow, fenced, output};
 use crate::capi::patch::{pp_patch_state, settings, state_of, with_points};
 use crate::capi::status::*;
-use crate::capi::types::pp_contact_2d;
+use crate::capi::types::{pp_contact_2d, pp_patch_point_2d};
 use crate::planar::{PatchPoint, patch_of_contact};
 use crate::{PatchScratch, PatchSettings};
 
@@ -51,20 +51,6 @@ pub struct pp_patch_2d {
     pub stiffness: [f64; 9],
 }
 
-/// A point of quadrature on a patch of the plane.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_patch_point_2d {
-    /// Its place minus the contact point, world axes.
-    pub position: [f64; 2],
-    /// Its share of the length.
-    pub length: f64,
-    /// p/K there, length.
-    pub depth: f64,
-    /// Unit normal of the patch, from A to B, world axes.
-    pub normal: [f64; 2],
-}
-
 /// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact, state too.
 ///
 /// Errors: those of pp_patch_of_contact.
@@ -94,14 +80,8 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
             Some(state) => state.patch_in_plane(a, &pose_a, b, &pose_b, contact, &settings, scratch),
             None => patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit),
         };
-        let point_to = |point: PatchPoint| pp_patch_point_2d {
-            position: point.position.into(),
-            length: point.length,
-            depth: point.depth,
-            normal: point.normal.into(),
-        };
         // SAFETY: as the caller has promised.
-        let patch = unsafe { with_points(run, |patch| patch.points, point_to, points, capacity, count) }?;
+        let patch = unsafe { with_points(run, |patch| patch.points, points, capacity, count) }?;
         out.write(pp_patch_2d {
             flags: patch.flags.bits(),
             reserved: 0,

@@ -3,7 +3,7 @@
 use super::convert::{finite, pose_from};
 use super::particle::pp_particle_2d;
 use super::types::{pp_area_properties, pp_pose_2d};
-use crate::capi::fence::{borrow, fenced, output, write_rows};
+use crate::capi::fence::{borrow, fenced, output, read, write_rows};
 use crate::capi::status::*;
 use nalgebra::Vector2;
 
@@ -44,11 +44,8 @@ pub unsafe extern "C" fn pp_particle_bounding_radius_2d(
     particle: *const pp_particle_2d,
     radius: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        unsafe { output(radius) }?.write(particle.bounding_radius());
-        Ok(())
-    })
+    // SAFETY: as promised.
+    unsafe { read(particle, radius, |particle| particle.0.bounding_radius()) }
 }
 
 /// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
