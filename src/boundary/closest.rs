@@ -49,8 +49,7 @@ pub(super) struct Least {
     /// Whether both are right to the last digits, as the solution is.
     precise: bool,
     pub solution: Solution,
-    /// How steeply S falls from there into the triangle, negative where it rises; and may fall with all that is in
-    /// doubt.
+    /// How steeply S falls from there into the triangle, negative where it rises; and an upper bound on that.
     inward_descent: f64,
     descent: f64,
     /// Bound on the distance of the point to that of the whole boundary, if it is certain that this lies on the part.
@@ -103,7 +102,7 @@ impl Search<'_> {
         let point_bound = if is_all { point_bound } else { f64::INFINITY };
         self.flags = self.flags.with(call.flags);
         self.iterations += call.iterations;
-        // Of a point that is known to the last digits the frame has to be, too.
+        // The frame must be as precise as the point.
         let precise = call.flags.contains(Flags::EXTENDED);
         let PartFrame { rotation, centre, lengths } = if precise { placed.precise_frame() } else { placed.frame };
         let descent = larger(inward_descent, 0.0) + rounding + solution.slope;
@@ -148,8 +147,7 @@ impl Search<'_> {
         let inside = self.inside(plane)?;
         let x = inside.solution.x.xy();
         let mut on_edges = [None; 3];
-        // An edge that the point cannot be told from by rounding counts as passed: S is no less there than on the
-        // triangle.
+        // An edge whose distance is 0 within rounding counts as passed: S is no less there than on the triangle.
         let from_edges =
             if inside.precise { plane.wide_from_edges(&triangle.vertices, &x) } else { placed.from_edges(&x) };
         for i in (0..3).filter(|i| from_edges[*i] <= inside.shift()) {
@@ -181,8 +179,8 @@ impl Search<'_> {
         };
         let mut duality_gap = smaller(least.duality_gap(&body, extent), above(&inside) + inside.solution.duality_gap);
         let mut point_bound = least.point_bound;
-        // Nor below that of an edge but for the descent from there, which says more than a vertex that rounding has put
-        // in its place.
+        // Nor below that of an edge's line but for the descent there: a tighter bound than by a vertex that rounding
+        // chose.
         for on_edge in on_edges.iter().flatten() {
             let line = &on_edge.of_line;
             duality_gap = smaller(duality_gap, above(line) + line.duality_gap(&body, extent_from(line)));
@@ -195,8 +193,8 @@ impl Search<'_> {
         if self.precise { self.as_without_triangle(triangle, closest) } else { Ok(closest) }
     }
 
-    /// From a vertex on along an edge that ends there: its least S is no more, and whether it is less is an answer of
-    /// the edge alone, so that all triangles that share it have the same. It may lead to another vertex, but not round
+    /// From a vertex along the edges that end there: the least S of an edge is no larger, and whether it is smaller
+    /// follows from the edge alone, so that all triangles that share it agree. It may lead to another vertex, but not
     /// in a circle.
     fn from_vertices(
         &mut self,
@@ -334,7 +332,7 @@ impl Closest {
         Scale::between(estimate, upper - self.duality_gap - most - rounding, larger(estimate, upper) + rounding)
     }
 
-    /// Whether so much is open, beside what the regularisation adds, that it may be no answer.
+    /// Whether the gap, beside what the regularisation adds, is too wide for an answer.
     pub fn is_inconclusive(&self) -> bool {
         Solution::is_inconclusive(self.duality_gap + self.least.solution.rounding, self.least.solution.upper)
     }

@@ -91,7 +91,7 @@ answer! {
 /// ```
 ///
 /// # Errors
-/// A setting out of range, or no answer from the solver; bounds of s on both sides of 1 with a gap above 1e-2 are none.
+/// A setting out of range, or no answer: the solver failed, or its bounds of s enclose 1 with a gap above 1e-2.
 pub fn contact_with_plane(
     a: &Particle,
     pose: &Pose,
@@ -222,7 +222,7 @@ impl Call<'_> {
     }
 
     /// Along the gradient; inside the boundary along its normal, at an edge at right angles to that. And whether the
-    /// gradient vanishes to its rounding, so that it is that of the boundary or minus that.
+    /// gradient is 0 within rounding, so that the normal is ± that of the boundary.
     fn normal(&self, body: &Body, found: &Closest) -> (Vector3<f64>, bool) {
         let (least, solution) = (&found.least, &found.least.solution);
         let shift = shift_in_a(least.from_centre().norm(), least.lengths);

@@ -15,7 +15,7 @@ const STEPS: usize = 6;
 const CLEAR: f64 = 1e-4;
 /// Vertices within this share of the size are one.
 const SAME: f64 = 1e-9;
-/// Share of the clear slope that the way to the exact point of the edge may change them by.
+/// Bound on the change of the slopes on the way to the exact point, over `CLEAR`.
 const DOUBT: f64 = 0.5;
 
 /// How S goes on into a neighbour from the point where it is least on a triangle.
@@ -35,8 +35,8 @@ pub enum Onwards {
 /// `share`: on an edge the place of the least S, from its first vertex to the next one, 0 to 1: a guess, replaced by
 /// what was found.
 ///
-/// On an edge S is convex, and its curvature at least that of the shadow sphere: a slope that is left bounds the way to
-/// the least S, and that way, times the curvature, what the slopes into both triangles are off by.
+/// On an edge S is convex, and its curvature at least that of the shadow sphere: a residual slope bounds the way to the
+/// least S, and that way, times the curvature, the error of the slopes into both triangles.
 pub fn onwards_from_seam(
     a: &Particle,
     pose: &Pose,
@@ -62,8 +62,7 @@ pub fn onwards_from_seam(
     };
     let here = potential::turned(a, body.sphere_weight(), |n| n, &x, 0.0, |_, excess| excess > 0.0);
     let steep = here.gradient.norm();
-    // As far as the exact point is off, no plane comes on or goes off, and the slopes change by no more than the
-    // quadratic bends.
+    // On the way to the exact point no plane may switch, and the slopes change by no more than the curvature allows.
     let is_one_quadratic = doubt * a.bounds.longest_normal < here.clear || doubt == 0.0;
     let off = doubt * here.hessian.diagonal().sum();
     let is_known = is_one_quadratic && off <= DOUBT * CLEAR * steep && steep * a.bounding_radius() > CLEAR;
@@ -84,7 +83,7 @@ pub fn onwards_from_seam(
     let (first, second, third) = (slopes.next(), slopes.next(), slopes.next());
     let is_edge = feature.edge().is_some();
     let (Some(first), None) = (first, third) else { return Onwards::Unknown };
-    // The neighbour has no more vertices beyond than if it shares the edge, or the vertex.
+    // A neighbour has one vertex beyond a shared edge, two beyond a shared vertex.
     if is_edge == second.is_some() {
         return Onwards::Unknown;
     }
@@ -109,7 +108,7 @@ fn least_on_edge(body: &Body, from: &Vector3<f64>, to: &Vector3<f64>, share: &mu
         let x = from + way * unit;
         let line = potential::on_line(particle, weight, &x, &unit);
         let step = line.slope / line.curvature;
-        // The slope, and what rounds it: the terms of S bend by their curvature on the way that a place is rounded by.
+        // The slope and its rounding: that of the place, times the curvature of the terms of S.
         let rounding = 64.0 * f64::EPSILON * (x.norm() + length) * line.curvature;
         let doubt = (line.slope.abs() + rounding) / (2.0 * weight);
         if step.abs() <= 1e-13 * (particle.bounding_radius() + length) || !step.is_finite() {

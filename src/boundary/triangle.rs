@@ -10,8 +10,8 @@ use nalgebra::{Vector2, Vector3};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlacedTriangle {
     vertices: [Vector2<f64>; 3],
-    /// From each vertex to the next, at unit length, and how far: from the vertices as given, whose places tell less
-    /// far from the particle.
+    /// Unit vector and distance from each vertex to the next, by the vertices as given: far from the particle,
+    /// `vertices` are less exact.
     edges: [(Vector2<f64>, f64); 3],
 }
 

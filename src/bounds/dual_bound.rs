@@ -24,8 +24,8 @@ pub(crate) struct DualBound {
 }
 
 impl DualBound {
-    /// After a step to where ∇S_A and ∇S_B, weighted, have the length `force`. The optimum lies in {S ≤ `upper`}: where
-    /// the spheres are all but flat, the slope over the way to its far end is less than what their curvature allows.
+    /// After a step to where ∇S_A and ∇S_B, weighted, have the length `force`. The optimum lies in {S ≤ `upper`}: if
+    /// the spheres have little curvature, the slope times the way to its far end is the smaller bound.
     #[inline(always)]
     pub fn after(
         model: &LocalModel,

@@ -67,7 +67,7 @@ fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -
 }
 
 /// The merit of x, or of a point on the way to the centre of the body that x should be in and is not: λ may be wrong,
-/// and with it the price of what is missing. s is convex on that way.
+/// and with it the penalty. s is convex on that way.
 fn feasible(x: &Vector3<f64>, values: [f64; 2], bodies: [&Body; 2], problem: Problem) -> f64 {
     let Some((held, free)) = problem.held() else { return values[0].max(values[1]) };
     let (s, centre) = (values[held].sqrt(), bodies[held].centre());

@@ -8,9 +8,9 @@ use crate::model::problem::{Problem, TURN};
 use crate::pair::body::Body;
 use nalgebra::Vector3;
 
-/// Factor on the move by the regularisation of first order. Where both S are 0 without it, as of a ball whose centre
-/// lies in a core, the point goes with its root: first order tells half of a small move, and a third of one of a third
-/// of the way to the centre of the regularised body; of longer ones nothing is told.
+/// Factor on the first-order move by the regularisation. Where both S are 0 without it, as for a ball whose centre lies
+/// in a core, the point moves as its root: first order gives half of a small move, and a third of one by a third of the
+/// way to the centre of the regularised body; for longer ones it gives nothing.
 const OF_ROOT: f64 = 3.0;
 const LONGEST: f64 = 0.5;
 
@@ -24,8 +24,7 @@ const SIDES: f64 = 8.0;
 /// optimum to each is a linear problem that is solved already, and the lengths are added: an estimate of first order,
 /// with bounds on all data. Elsewhere strong convexity bounds it: ½·curvature·(½·distance)² ≤ upper − lower.
 ///
-/// Of particles that are regularised the optimum is that without the regularisation, the nearest one where it is no
-/// single point.
+/// For regularised particles the optimum is that without the regularisation, the nearest one if it is not unique.
 #[inline(always)]
 pub(crate) fn point_bound(solution: &Solution, model: &LocalModel, bodies: [&Body; 2], problem: Problem) -> f64 {
     let bound = of_solved(solution, model, bodies, problem);
@@ -122,9 +121,9 @@ impl Added {
 
     /// How far it moves the optimum, which is known to `bound`.
     ///
-    /// With a share of the curvature its own, the move without that curvature is as the geometric series of the share.
-    /// Along flat faces it is all of the curvature, and the slope is 0 where the point that it selects is an optimum
-    /// without it, too.
+    /// Where it adds a share of the curvature, the move without that share grows by its geometric series. Along flat
+    /// faces it is all of the curvature, and the slope is 0 where the point that it selects is an optimum without it,
+    /// too.
     pub fn moves(&self, sensitivity: &Sensitivity, bound: f64) -> f64 {
         let first = sensitivity.to_slope(&self.slope);
         let (by_slope, by_value) = (first.norm(), sensitivity.to_value(self.value));
@@ -172,8 +171,8 @@ pub(crate) fn by_convexity(solution: &Solution, bodies: [&Body; 2], problem: Pro
     farthest_apart(solution.duality_gap + 2.0 * solution.rounding, weights.0 * soft.0 + weights.1 * soft.1)
 }
 
-/// Bound on the distance of two points at which a function of this curvature at least is no more than so much above its
-/// minimum.
+/// Bound on the distance of two points where a function of at least this curvature exceeds its minimum by at most
+/// `above`.
 pub(crate) fn farthest_apart(above: f64, curvature: f64) -> f64 {
     2.0 * (2.0 * above / curvature).sqrt()
 }

@@ -53,8 +53,8 @@ impl Scale {
         Self { s, gap: larger(s - low, high - s) + OF_SCALE * s + UNDERFLOW, low, high: high * (1.0 + OF_SCALE) }
     }
 
-    /// Whether it is no answer: s and its gap leave open on which side of 1 s lies, by more than [`INCONCLUSIVE`]. A
-    /// regularisation that is raised was asked for with the gap that it leaves, which may be any number.
+    /// Whether it is no answer: 1 lies within the gap of s, which is above [`INCONCLUSIVE`]. With a raised
+    /// regularisation the gap may be any number.
     pub fn is_undecided(&self, raised: bool) -> bool {
         let most = if raised { f64::MAX } else { INCONCLUSIVE };
         // What is no number is no answer either.

@@ -36,8 +36,8 @@ pub(crate) struct Sensitivity {
 }
 
 impl Sensitivity {
-    /// Of the optimum of two quadratics with least curvatures `soft` of A and B, whose planes push by at least so much,
-    /// of points with so many coordinates; `None` where both sides do not part with λ.
+    /// Of the optimum of two quadratics with least curvatures `soft` and least plane pushes `pushes` of A and B, in
+    /// `dimensions` coordinates; `None` where the mismatch does not change with λ.
     #[inline(always)]
     pub fn of(
         optimum: &Optimum,

@@ -106,7 +106,7 @@ pub fn detect_batch_into<T: Send>(
 pub(crate) type Placed<'a, P = Particle, Q = Pose> = (&'a P, &'a Q);
 type Answer = Result<Contact, DetectError>;
 
-/// Of so many pairs. A contact is large, and each will be written: until then something small stands there.
+/// A small placeholder for each answer: a contact is large, and each will be written.
 pub(crate) fn unanswered<C: Clone>(pairs: usize) -> Vec<Result<C, DetectError>> {
     vec![Err(DetectError::NoSuchBody { index: 0, bodies: 0 }); pairs]
 }
@@ -156,7 +156,7 @@ fn same_length(what: &'static str, given: usize, expected: usize) -> Result<(), 
     if given == expected { Ok(()) } else { Err(DetectError::Length { what, given, expected }) }
 }
 
-/// As [`slice::chunks_mut`], and empty chunks without end behind the last one: nothing is as good as one for each pair.
+/// As [`slice::chunks_mut`], then empty chunks without end: an empty slice means that no pair has one.
 pub(crate) fn optional_chunks<T>(all: &mut [T]) -> impl Iterator<Item = &mut [T]> {
     all.chunks_mut(CHUNK).chain(std::iter::repeat_with(|| &mut [][..]))
 }

@@ -229,7 +229,7 @@ impl Equations {
                 return None;
             }
             step = next;
-            // So short, too, that what converges as it must be seen to is then known to within `room`.
+            // Twice the next change, which must be at most `TOLD` of this one, must be within `room`.
             let short = 4.0 * TOLD * TOLD * change <= room * room;
             if short && change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
                 return Some(Round { step, change, number });
@@ -317,7 +317,7 @@ impl LastContact {
         let share = step.weight.abs() / smaller(weight, 1.0 - weight);
         let left_out = 1.0 + 2.0 * share * equations.stiffness.sqrt();
         let converges = way * way <= TOLD * TOLD * change && 2.0 * way * left_out <= room;
-        // Where it is no shorter by far, it must be rounding.
+        // A step that is not much shorter must be rounding.
         if !(share <= MOST_CHANGE && (converges || way <= self.point_bound)) {
             return None;
         }
@@ -356,8 +356,7 @@ impl LastContact {
         self.square > 1.0
     }
 
-    /// s there, with its bound, and by how much bounds of the solved contact have grown; `None` where its weight is
-    /// none.
+    /// s there, with its bound, and the growth of the solved contact's bounds; `None` where weight or share is invalid.
     #[inline(always)]
     fn scale(&self, optimum: &Optimum, within: &[Within; 2]) -> Option<(Scale, f64)> {
         let s = optimum.square().sqrt();
@@ -398,7 +397,7 @@ impl LastContact {
         }
         let lambda = u / (1.0 - u);
         let solution = Solution { gradients, values, ..Solution::unsettled(*x, lambda, *rounds) };
-        // Forces balance: both sides of it point the same way, and no unit vectors are needed to weigh them alike.
+        // Forces balance: (1−u)∇S_A and −u∇S_B are equal, and no unit vectors are needed to weigh them alike.
         let across = Across::balanced((1.0 - u) * gradients[0] - *u * gradients[1]);
         let n = across.vector();
         let along = [within[0].along(&pieces[0], n), within[1].along(&pieces[1], n)];

@@ -11,11 +11,11 @@ use crate::particle::potential;
 use nalgebra::Vector3;
 use std::cell::Cell;
 
-/// Bound on how many times that of the solved contact the rounding of places is within reach (derived: 3.1).
+/// Bound on the rounding of places within reach, over that of the solved contact (derived: 3.1).
 pub(super) const MORE_ROUNDING: f64 = 4.0;
 
-/// How often the pieces are set up anew about a point that goes on, before it is solved from the planes again: how the
-/// optimum answers to changes of its data is known from there.
+/// How often the pieces are set up again about a moving point, before it is solved from the planes: only a solve gives
+/// the response of the optimum to changes of its data.
 const MOST_FOLLOWS: f64 = 30.0;
 
 /// How many times as large the rounding of S may be there as where it was solved.
@@ -50,8 +50,8 @@ impl KnownPiece {
 }
 
 impl LastContact {
-    /// Sets up the pieces about where the point x is now, frame of B, at this S, by a look at the planes that may have
-    /// switched since it has left one of them. `None` where one has, or where it was done too often.
+    /// Sets up the pieces again about the point x, frame of B, which has left one of them, at this S, from the planes
+    /// that may have switched. `None` where one has, or after too many times.
     #[inline(never)]
     pub(super) fn follow(&mut self, pair: &Pair, x: &Vector3<f64>, square: f64) -> Option<()> {
         let (a, b) = Body::both(pair, 0.0);

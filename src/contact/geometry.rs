@@ -141,7 +141,7 @@ impl LocalContact {
         };
         let (point_on_a, point_on_b, overlap) = match self.surface {
             None => return contact,
-            // Where s < 1 by rounding alone, so may be the sum.
+            // The sum may be < 0 if s < 1 by rounding alone.
             Some(Surface::Along(to_a, to_b)) => {
                 let (on_a, on_b) = (branch_b + to_a * normal, branch_b - to_b * normal);
                 (pose_b.position() + on_a, pose_b.position() + on_b, larger(to_a + to_b, 0.0))
@@ -194,8 +194,8 @@ impl Across {
         self.vector / self.length
     }
 
-    /// How far the surface is where S is this piece, with its slope along the vector: on the quadratic at hand, or from
-    /// where that would be. A piece of no reach says nothing, not even that a point where it is 1 lies on the surface.
+    /// Distance to the surface where S is this piece, of this slope along the vector: by the quadratic, or from the
+    /// place that it gives. A piece of no reach proves nothing, not even that a point with S = 1 lies on the surface.
     #[inline(always)]
     fn way(&self, value: f64, piece: Piece, slope: f64, from_there: impl Fn(f64) -> Option<f64>) -> Option<f64> {
         let way = self.length * ray_cast::root_of_piece(value - piece.surplus - 1.0, slope, piece.curvature);

@@ -34,8 +34,7 @@ const IN_A: f64 = 30.0;
 /// The rounding of the centre of A, relative to its length, is at most this share of [`IN_A`].
 const OF_CENTRE: f64 = 0.5;
 
-/// Bound on the rounding of a point as A sees it, at this distance from the centre of A, which is so far from that of
-/// B.
+/// Bound on the rounding of a point as A sees it, at `length` from its centre, which is `centre` from that of B.
 pub(crate) fn shift_in_a(length: f64, centre: f64) -> f64 {
     IN_A * f64::EPSILON * (length + OF_CENTRE * centre)
 }
@@ -188,8 +187,8 @@ impl<'a> Body<'a> {
         q.pull * blur + q.gradient.norm() * point.shift + second + self.rounding_of_value(q.value, q.count)
     }
 
-    /// What a shift and the blur of so many planes do to S in second order. A plane that is left out at a depth of one
-    /// blur may be on by two.
+    /// Second-order change of S by a shift and the blur of these planes. One that is left out at a depth of one blur
+    /// may be active by two.
     #[inline]
     pub fn second_order(&self, planes: f64, shift: f64, blur: f64) -> f64 {
         4.0 * planes * self.plane_weight() * blur * blur + self.sphere_weight * shift * shift
@@ -257,7 +256,7 @@ impl<'a> Body<'a> {
         if self.is_plain() { f64::INFINITY } else { (x - self.centre).norm_squared() }
     }
 
-    /// The gradient of that.
+    /// Gradient of surplus.
     pub fn surplus_gradient(&self, x: &Vector3<f64>) -> Vector3<f64> {
         self.surplus_curvature() * (x - self.centre)
     }

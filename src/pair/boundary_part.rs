@@ -130,7 +130,7 @@ impl BoundaryPart {
         OF_DIRECTION * gradient * side.norm() / along.cross(&side).norm()
     }
 
-    /// Of the falls along the directions that bound the triangle at the part, which are made in either numbers.
+    /// The steepest fall along the directions that bound the triangle at the part, in either kind of numbers.
     fn steepest<N: Number>(
         &self,
         towards: impl Fn(&Vector3<f64>, &Vector3<f64>) -> Vector3<N>,
@@ -218,8 +218,8 @@ impl<'a> PlacedPart<'a> {
 /// product with the rounded axes.
 const OF_DIRECTION: f64 = 8.0 * f64::EPSILON;
 
-/// The steepest fall between two sides with these falls along them, where the sum of their unit vectors is so long: a
-/// direction between them is a sum of both with shares that add up to at least 1, and to 2 over that length at most.
+/// The steepest fall between two sides with these falls along them, `sum` the length of the sum of their unit vectors:
+/// a direction between them is a sum of both with shares that add up to at least 1, and at most 2/`sum`.
 fn into_corner(falls: [f64; 2], sum: f64) -> f64 {
     let most = larger(falls[0], falls[1]);
     if most > 0.0 { most * 2.0 / sum } else { most }
@@ -251,7 +251,7 @@ fn wide_unit(v: &Wide) -> Wide {
     scaled.map(|c| c / length)
 }
 
-/// The unit vector at right angles to one that is nearest to another.
+/// The unit vector nearest to `near` at right angles to `n`.
 fn wide_across(n: &Wide, near: &Vector3<f64>) -> Wide {
     let near = wide(near);
     wide_unit(&(near - n * near.dot(n)))

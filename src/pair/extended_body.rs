@@ -285,8 +285,8 @@ impl<'a> ExtendedBody<'a> {
         })
     }
 
-    /// Of the planes that are on where their depth cannot be told from 0, the one whose depth is most negative after a
-    /// step, and by how much times |n|: its multiplier would have to be.
+    /// Of the active planes whose depth cannot be distinguished from 0, the one with the most negative depth, hence
+    /// multiplier, after a step; and |depth|·|n|.
     pub fn most_negative(&self, delta: &Wide, v: &Wide) -> Option<(usize, f64)> {
         let length = rounded(delta).norm();
         let mut most = None;

@@ -132,7 +132,7 @@ impl Hull {
         hull
     }
 
-    /// What the planes prove, if that the particles share no point, from n·x − d of each at a point x that is so `far`
+    /// The proof of separation by the planes, if there is one, from n·x − d of each at a point x at distances `far`
     /// from both centres. `rho` are the factors of the gradients.
     #[inline(always)]
     pub fn proof(
@@ -173,13 +173,13 @@ impl Hull {
     }
 }
 
-/// A whole number tells two planes: each by its place, that of a plane of B with [`MAX_PLANES`] added, or by this where
-/// there is none; the second one times [`SECOND`].
+/// A whole number encodes two planes, the second times [`SECOND`]: each by its place, plus [`MAX_PLANES`] if of B, or
+/// by this if there is none.
 const NO_PLANE: usize = 2 * MAX_PLANES;
 const SECOND: usize = 4 * MAX_PLANES;
 
-/// Body (0, 1) and place of the planes of [`Hull::places`], whatever the numbers are, as far as the particles have
-/// them; and how many.
+/// Body (0, 1) and place of the planes of [`Hull::places`], and how many of them the particles have; any numbers are
+/// allowed.
 #[inline(always)]
 fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize, usize); 4], usize) {
     // What is negative or not a number becomes 0.

@@ -66,8 +66,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// From the centre of A to a point, world axes, given the way there from the centre of B: the difference of the
-    /// positions is not rounded, so that the two differ by that of the positions to the rounding of this one.
+    /// From the centre of A to a point, world axes, given the branch from the centre of B. The difference of the
+    /// positions is not rounded: both branches differ by it to the rounding of this one.
     #[inline(always)]
     pub(crate) fn branch_a(&self, branch_b: &Vector3<f64>) -> Vector3<f64> {
         match self.given {

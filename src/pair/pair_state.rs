@@ -11,7 +11,7 @@ use nalgebra::Vector3;
 /// last contact, from which the next contact may follow without a solution from the planes. Empty by default.
 ///
 /// The solution is a hint and can be saved ([`Self::into_raw`]): any content, even of another pair, leaves the answer
-/// within its gap. The quadratics are none, and are never saved: they are written by the library only, and used for the
+/// within its gap. The quadratics are no hint and are never saved: only the library writes them, and uses them for the
 /// two particles for which they were written.
 ///
 /// ```
@@ -44,8 +44,8 @@ pub(crate) struct Remembered {
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
     pub how: How,
-    /// Of [`How::Balanced`] which planes, by [`crate::pair::hull::Hull::places`]. Else factors from the λ of P1 and P2
-    /// that `solver::closest::from_between` predicts to theirs; used where the products are in the range of λ.
+    /// For [`How::Balanced`] the planes, as [`crate::pair::hull::Hull::places`]. Else the λ of P1 and P2 over those
+    /// that `solver::closest::from_between` predicts; used where the products are in the range of λ.
     pub closest: [f64; 2],
 }
 
@@ -80,7 +80,7 @@ pub(crate) struct LastContact {
     /// S, and bounds on the rounding of S_A and S_B, when it was solved.
     pub square: f64,
     pub roundings: [f64; 2],
-    /// Bound on how many times as large the rounding is about the pieces, which have followed the point so often.
+    /// Bound on the growth of the rounding since the solve, and how often the pieces followed the point.
     pub growth: f64,
     pub follows: f64,
     /// `gap_tolerance` and `flat_regularisation` with which it was solved.
@@ -111,8 +111,7 @@ impl PairState {
     /// Marks a solution that is there; all-zero bytes are an empty state.
     const FILLED: f64 = 1.0;
 
-    /// With a remembered solution, from the eight numbers of [`Self::into_raw`]. Whatever is none is as good as an
-    /// empty state.
+    /// A state from the eight numbers of [`Self::into_raw`]. Numbers that are no solution count as an empty state.
     pub fn from_raw(solution: [f64; 8]) -> Self {
         Self { solution, last_contact: LastContact::default() }
     }
@@ -168,8 +167,8 @@ impl PairState {
     }
 }
 
-/// What `solve` gives from what is remembered, if anything is; where that fails, what it gives without. What is
-/// remembered may be of any other pair, and no start leads to the answer from everywhere.
+/// What `solve` gives with the memory, if there is one; if that fails, without. The memory may be of any other pair,
+/// and `solve` does not converge from every start.
 #[inline(always)]
 pub(crate) fn from_memory_or_anew<T, E>(remembers: bool, mut solve: impl FnMut(bool) -> Result<T, E>) -> Result<T, E> {
     match solve(remembers) {
@@ -179,10 +178,10 @@ pub(crate) fn from_memory_or_anew<T, E>(remembers: bool, mut solve: impl FnMut(b
 }
 
 impl LastContact {
-    /// Whether it is one of these two particles, in bounds that may be used.
+    /// Whether it is of these two particles, with finite bounds.
     #[inline(always)]
     pub fn is_of(&self, a: &Particle, b: &Particle) -> bool {
-        // What is not finite in the rest leaves no number of S.
+        // Where the rest is not finite, neither is S.
         let bounds = (self.pieces[0].reach + self.pieces[1].reach) + (self.gap + self.point_bound);
         self.of == [a.serial(), b.serial()] && bounds.is_finite()
     }

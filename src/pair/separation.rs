@@ -53,7 +53,7 @@ pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
     })
 }
 
-/// What the tangents of both potentials at x (local frame of B) prove, if that the particles share no point.
+/// A proof of separation by the tangents of both potentials at x (local frame of B), if they give one.
 ///
 /// S is convex, so that for any λ > 0 and any y that both hold
 ///
@@ -64,8 +64,8 @@ pub fn proof_of_separation(pair: &Pair) -> Option<Apart> {
 /// and |y − x| is at most the way to the far side of either ball. At the optimum of midway the gradients
 /// are opposite, and the point of the last call is near it.
 ///
-/// Of two points at a distance d, one in A and one in B, the left side gains |∇S_A(x)|·d or λ|∇S_B(x)|·d, whichever of
-/// the two points y is: what is left above 1 + λ, over the larger of them, is a distance that no two points keep below.
+/// For two points at a distance d, one in A and one in B, the left side grows by |∇S_A(x)|·d or λ|∇S_B(x)|·d, depending
+/// on which of them y is: its excess over 1 + λ, divided by the larger slope, is a lower bound on d.
 #[inline(always)]
 pub(crate) fn still_apart(
     (particle_a, pose_a): (&Particle, &Pose),
@@ -99,9 +99,9 @@ pub(crate) fn still_apart(
 
 /// How far `other`, centred at `centre` in the frame of `host`, lies beyond a face of `host`, if it does.
 ///
-/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other` is tried and its corners, which are tighter, are tried against
-/// a face that its centre lies far beyond: any face proves what it does. `to_other` takes directions from the frame of
-/// `host` to that of `other`.
+/// f ≤ 0 implies n·x ≤ d + r/√(1−k). The ball of `other`, then its tighter corners, are tried against a face that its
+/// centre lies far beyond: any face is valid for a proof. `to_other` takes directions from the frame of `host` to that
+/// of `other`.
 fn beyond_a_face(
     host: &Particle,
     centre: &Vector3<f64>,

@@ -102,7 +102,7 @@ impl Cap {
 
     /// Gauss' rule of so many points in both angles.
     pub fn integrate(&self, points: usize, mut visit: impl FnMut(Node)) -> Option<()> {
-        // The height ends as a root does, or as a line: the square of the rest makes it smooth.
+        // Near its end x = 0 the height goes like √x or like x: with x = rest² it is smooth.
         for (rest, weight) in if points == 1 { &[(1.0 - SINGLE, 1.0)] } else { tapering(points) } {
             let theta = self.start + self.width * (1.0 - rest * rest);
             let height = self.height(theta);

@@ -143,7 +143,7 @@ const FARTHEST: f64 = 2.0;
 /// Length of a bounding triangle over the estimated distance of the rim.
 const BEYOND_RIM: f64 = 1.25;
 
-/// A rim beyond so many times the size of the bodies is none.
+/// Beyond this multiple of the bodies' size there is no rim.
 const FAR: f64 = 100.0;
 
 impl Cell {
@@ -230,8 +230,8 @@ impl Cell {
         }
         let d = &self.d;
         let square = along * along + up * up;
-        // Farther off than the bodies are large nothing is met: of a plane across the half-plane but for rounding what
-        // follows would say anything.
+        // Nothing is met farther off than the bodies' size. For a plane parallel to the half-plane to rounding, what
+        // follows gives any number.
         if !(e * e <= FARTHEST * FARTHEST * radius * radius * square) {
             return None;
         }
@@ -262,13 +262,13 @@ impl Cell {
         first
     }
 
-    /// 1/(distance to the crossing of a plane) as its excess at the start of the cell and its rate there have it.
+    /// Inverse distance to a plane, extrapolated from its excess and rate at the start of the cell.
     pub fn linear_inverse(&self, plane: &RayPlane) -> f64 {
         -(plane.along + plane.up * self.incline(0.0, 0.0)) / plane.excess
     }
 
     /// Around the arc from the start to beyond the rim. `None` where the patch is flat, for which it saves nothing, or
-    /// where the estimate of the rim falls short or lies behind the turn.
+    /// where the estimated rim is too near or beyond the turn.
     pub fn bounding_triangle(&self, turn: f64) -> Option<BoundingTriangle> {
         if self.is_flat {
             return None;

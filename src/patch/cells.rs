@@ -37,19 +37,19 @@ struct Part {
     error: [f64; 2],
 }
 
-/// Error of the rule over the load and the square of the relative difference to that of lower degree, times the least
-/// S: the nearer s = √S comes to the kink at its 0, the slower the rules converge. Of the coarse and of the fine rule.
+/// Factor c of the coarse and the fine rule: the relative error is c d² over the least S, d the relative difference to
+/// the rule of lower degree. The nearer s = √S comes to its kink at 0, the slower the rules converge.
 const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
 
 /// Error of the load by the sides over its estimate, at most about.
 const OF_MISFIT: f64 = 3.0;
 
-/// Part of what all may take that the sides may take; where they take more, they are drawn once more, with this part of
-/// the tolerance.
+/// Share of the allowed error for the sides; where they exceed it, they are drawn again, with `FINER` times the
+/// tolerance.
 const OF_SIDES: f64 = 0.95;
 const FINER: f64 = 0.25;
 
-/// Error of the coarse rule in a triangle over what all may take, from which on it is tried in no other: about corners
+/// Error of the coarse rule in one triangle, over the allowed one, above which it is tried in no other: about corners
 /// all triangles are alike.
 const HOPELESS: f64 = 60.0;
 
@@ -160,7 +160,7 @@ impl CellScratch {
                 worst = worst.max(part.error[0]);
             }
             let allowed = SHARE * tolerance * norm(&sums[..3]);
-            // What the sides are off no finer rule mends.
+            // No finer rule reduces the sides' error.
             self.is_off = OF_MISFIT * misfit.load >= OF_SIDES * allowed;
             if self.is_off || !(allowed > 0.0) {
                 return None;

@@ -3,8 +3,8 @@
 use super::field::{Field, Owner};
 use super::ray::{Line, Walker};
 
-/// The axis of the frame's plane in which S_A and S_B bend least at the origin, weighted so that their gradients
-/// cancel: along an edge, or the long way of a small ellipse. The u axis where they do not bend at all.
+/// The axis of the frame's plane along which S_A and S_B, weighted so that their gradients cancel, curve least at the
+/// origin: along an edge, or the major axis of a small ellipse. The u axis if no axis is flattest.
 pub(super) fn flattest_axis(field: &Field) -> [f64; 2] {
     let [(_, rise), (_, fall)] = field.values(&[0.0; 3]);
     let (of_a, of_b) = if field.b.is_some() { (fall.abs(), rise.abs()) } else { (1.0, 0.0) };
@@ -22,8 +22,8 @@ pub(super) fn flattest_axis(field: &Field) -> [f64; 2] {
     [-steepest.sin(), steepest.cos()]
 }
 
-/// A point of the patch in its middle: from a point of it to the middle of the load on the line along an axis, and from
-/// there on that across. And ∫ p ρ dρ over the four rays from there along both, roughly.
+/// A point in the middle of the patch: from a point of it to the centre of the load on the line along an axis, then on
+/// the line across it. And a rough ∫ p ρ dρ over the four rays from there along both.
 pub(super) fn middle(walker: &mut Walker, start: [f64; 3], axis: [f64; 2]) -> ([f64; 3], f64) {
     let (mut at, mut rough) = (start, 0.0);
     for direction in [axis, [-axis[1], axis[0]]] {

@@ -90,7 +90,7 @@ impl Chart {
         a[0] * self.slopes[0] + a[1] * self.slopes[1] + a[2] * self.slopes[2]
     }
 
-    /// The place for coordinates over s and an excess of the last plane over s, with their changes by two parameters.
+    /// The place with coordinates s·`a` and last excess s·`last`, with derivatives by two parameters.
     #[inline(always)]
     pub fn place(&self, a: [f64; 3], by: [[f64; 3]; 2], last: f64, last_by: [f64; 2]) -> Place {
         let inverse = 1.0 / (last - self.change(a));
@@ -123,8 +123,8 @@ impl Wave {
         self.b / (self.size + self.a)
     }
 
-    /// Where, on the side of a sign from the peak, it has fallen to a value, the peak if it never is as high; and the
-    /// sine of the angle between.
+    /// Where it has fallen to a value on the given side of the peak, or the peak if it never is as high; and the sine
+    /// of the angle between.
     #[inline(always)]
     pub fn fallen_to(&self, value: f64, sign: f64) -> (f64, f64) {
         let ratio = (value / self.size).clamp(-1.0, 1.0);
@@ -154,5 +154,5 @@ pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node>
     (node.normal[0].abs() + node.normal[1].abs() < STEEPEST && node.weight < f64::INFINITY).then_some(node)
 }
 
-/// Slopes beyond this count as none of a graph.
+/// Beyond this slope the patch is not a graph.
 const STEEPEST: f64 = 30.0;

@@ -90,10 +90,9 @@ pub fn patch_on_plane(
 
 /// The patch of an overlapping contact of A with a triangle: the part of the triangle inside A.
 ///
-/// The normal is that of the triangle, turned away from A's side: from the front, where the vertices run
-/// counter-clockwise, if `from_front`, as for the mesh of a closed body seen from outside. Patches of coplanar
-/// triangles add up to that of the whole slab, and those of a closed mesh to the sum of its faces, with force, torque
-/// and energy of the mesh.
+/// The normal is that of the triangle, pointing away from A. If `from_front`, A is on the front, where the vertices run
+/// counter-clockwise: the outside of the mesh of a closed body. Patches of coplanar triangles add up to that of the
+/// slab, and those of a closed mesh to force, torque and energy of the mesh.
 ///
 /// # Errors
 /// Those of [`patch_of_contact`].
@@ -153,7 +152,7 @@ fn on_boundary(
     Ok(patch(&task, scratch, visit))
 }
 
-/// Sphericity below which the bodies are taken for rounder, and whether that is more than none.
+/// The sphericity to which smaller ones are raised, and the flag if it is above 0.
 pub(super) fn least_sphericity(s: f64) -> (f64, PatchFlags) {
     let mut flags = PatchFlags::default();
     flags.set(PatchFlags::DEEP, s < DEEP);

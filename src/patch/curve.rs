@@ -8,7 +8,7 @@ use super::ray::{CellEnd, GENTLE, RIM, Walker};
 /// Most cells on the way to the rim.
 const MOST_CELLS: usize = 64;
 
-/// Way over the size of the bodies within which a plane that goes on and off does neither.
+/// Way, over the bodies' size, within which a plane that switches twice does not count.
 const COINCIDENT: f64 = 1e-9;
 
 /// In the place of the number of a plane: the axes of the walk are turned there.
@@ -99,7 +99,7 @@ impl Walker<'_, '_, '_> {
             match next {
                 _ if is_folded => (),
                 Some(place) if place == last && since <= COINCIDENT * self.field.radius() => {
-                    // It goes on and off at once, as one whose curve coincides with this one.
+                    // It switches twice at once: its curve coincides with this one.
                     let plane = &mut self.planes[place];
                     (plane.at_origin, plane.along, plane.up, plane.active) = (0.0, 0.0, 0.0, false);
                 }
@@ -113,8 +113,8 @@ impl Walker<'_, '_, '_> {
         Err(Trouble::Lost)
     }
 
-    /// The curve of a plane through a point of it, from rim to rim: all places where it leaves a cell in `forwards`, of
-    /// which the first is where it leaves the rim, and begins no stretch. `backwards`: a buffer.
+    /// The curve of a plane through a point of it, from rim to rim. `forwards` gets all places where it leaves a cell,
+    /// after its start on the rim, which ends no stretch. `backwards`: a buffer.
     pub fn curve(
         &mut self,
         own: usize,

@@ -18,22 +18,21 @@ pub(super) struct Disc {
 /// The surface on which the excesses over s lie.
 #[derive(Clone, Copy, Debug)]
 enum Shape {
-    /// Of three planes of a body: about an axis, with two directions across it, up to where 1 − cos ω is so large.
+    /// Of three planes of a body: about an axis, with two directions across it, up to 1 − cos ω = `whole`.
     Sphere { axes: [Vector; 3], whole: f64 },
     /// Of two planes of each body: two waves, and the sines of half the angles at which they end.
     Torus { waves: [Wave; 2], ends: [f64; 2] },
 }
 
-/// The rule of [`Disc::first`]: distances from the middle, and weights of what is integrated with them over the disc.
-/// With f a function of the square u of the distance, it is exact for 1, u, u² and u³, and for √u and u√u, which
-/// distances from the middle lead to.
+/// The rule of [`Disc::first`]: distances from the middle, and their weights over the disc. In the square u of the
+/// distance it is exact for 1, u, u² and u³, and for √u and u√u, which distances from the middle lead to.
 const FIRST: [(f64, f64); 3] = [
     (0.218_242_855_053_144_9, 0.073_261_806_930_278_46),
     (0.599_358_967_604_768, 0.231_317_515_787_878_26),
     (0.914_448_984_910_964_3, 0.195_420_677_281_843_28),
 ];
 
-/// By how much it misses u⁴, for which a rule gives ⅒.
+/// Its error for u⁴, whose exact integral is ⅒.
 const OF_FOURTH: f64 = 5.94e-4;
 
 /// Estimated over likely error.
@@ -97,7 +96,7 @@ impl Disc {
         };
         let size = |of: [f64; 3]| Vector::from(of).norm();
         let cubic = [0, 1, 2].map(third);
-        // That through three points, less what the cubic term has in it.
+        // The divided difference, less the share of the cubic term.
         let square = [0, 1, 2].map(|i| second(i) - (u + v + w) * cubic[i]);
         let scale = SAFE * OF_FOURTH * 2.0 * TAU / points as f64;
         let of_load = size(cubic);

@@ -1,9 +1,9 @@
 //! The cells of a network: the faces of the planar graph that its sides make.
 //!
-//! Each side is walked over both ways. Where a way arrives at a vertex it goes on with the next side clockwise, so that
-//! what it encloses lies on its left; which planes are active there is asked at a point inside. Nothing depends on
-//! which curve a side is part of: curves that coincide are one side, and vertices that coincide are one. What lies
-//! between them counts by the second power.
+//! Each side is traced in both directions. At a vertex the way continues with the next side clockwise, so that the
+//! face lies on its left; which planes are active in it is found at a point inside. Nothing depends on which curve a
+//! side is part of: coinciding curves are one side, and coinciding vertices one vertex. What lies between them enters
+//! to second order.
 
 use super::network::{Network, SAME, Side};
 
@@ -34,8 +34,8 @@ pub(super) struct Faces {
 impl Faces {
     /// Gives the outline of each face, counter-clockwise; `None` where the sides make no planar graph.
     ///
-    /// With `is_split` sides get vertices wherever one lies on them: of two curves that coincide another may have met
-    /// one only.
+    /// With `is_split`, a side is split at each vertex that lies on it: a curve may have met only one of two that
+    /// coincide.
     pub fn visit(
         &mut self,
         network: &Network,
@@ -102,7 +102,7 @@ impl Faces {
         }
         let order = |side: &Side| [side.ends[0].min(side.ends[1]), side.ends[0].max(side.ends[1])];
         self.sides.sort_unstable_by_key(order);
-        // Of two parabolas between the same ends the same is as far off the chord.
+        // Parabolas with the same ends are the same if equally far off the chord.
         let at = |end: u32| vertices[end as usize].x;
         let off = |side: &Side| {
             let ([a, b], [u, v]) = (order(side).map(at), side.middle);
@@ -171,7 +171,7 @@ impl Faces {
     }
 }
 
-/// Twice the area of an outline of parabolas is that of the polygon through corners and middles, to what signs need.
+/// Area of an outline: of the polygon through corners and middles, which is enough for its sign.
 pub(super) fn area(outline: &[Corner]) -> f64 {
     let count = outline.len();
     let cross = |a: [f64; 2], b: [f64; 2]| a[0] * b[1] - a[1] * b[0];

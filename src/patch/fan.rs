@@ -13,11 +13,11 @@ const MOST_WORK: usize = 2_000_000;
 /// Most halvings in the search for the direction in which the sequence of cells changes.
 const DEEPEST: u32 = 14;
 
-/// Relative distance of two events on a ray at which it counts as the border between two sequences, as a power of the
+/// Relative distance of two events on a ray at which it counts as the border of two sequences, over the root of the
 /// tolerance: the error is of second order in it.
 const COINCIDENT: f64 = 0.1;
 
-/// Part of the tolerance that the pieces next to a border may take which are not cut off there.
+/// Share of the tolerance for the pieces next to a border that are not cut off there.
 const NEGLIGIBLE: f64 = 0.05;
 
 /// Part of what lies beyond an event that another sequence of cells changes at most, about.
@@ -33,13 +33,13 @@ const RADIAL: f64 = 0.1;
 /// polynomials.
 const STRAIGHT: f64 = 1e-7;
 
-/// Where the ray in the middle of a sector is so many times as long as the way to the middle of the chord between its
-/// ends, the sector has a tip, and the part of its load by which three rays are wrong there at most, about.
+/// A sector has a tip where its middle ray is `TIP` times as long as the way to the middle of the chord between its
+/// ends; three rays are then wrong by about `OF_TIP` of its load at most.
 const TIP: f64 = 2.0;
 const OF_TIP: f64 = 0.1;
 
-/// A relative change of the load from one ray to the next is a jump above this, and above so many times the angle
-/// between the two.
+/// The load jumps between two neighbouring rays where its relative change exceeds `JUMP` and also `STEEPEST` times
+/// their angle.
 const JUMP: f64 = 0.1;
 const STEEPEST: f64 = 30.0;
 
@@ -277,8 +277,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         }
     }
 
-    /// Where between two rays, as a part of the chord, the events that come first on either change places; `None` if
-    /// that is not known.
+    /// Where between two rays, as a part of the chord, their first differing events swap their order; `None` if
+    /// unknown.
     ///
     /// Inverse distances to straight borders are linear on the chord.
     fn change(&mut self, left: usize, right: usize, m: usize, at_a: &Event, at_b: &Event) -> Option<f64> {
@@ -290,8 +290,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         (first > 0.0 && last > 0.0 && t > 0.0 && t < 1.0).then_some(t)
     }
 
-    /// The ray as the end of the sector on its left and as that on its right, if it meets two events, `i` that comes
-    /// first on the left and `j` on the right, at the same place; else twice itself.
+    /// The ray as the end of the sectors on its left and right: two rays if it meets two events at one place, of which
+    /// `i` comes first on the left and `j` on the right; else twice itself.
     fn sides(&mut self, middle: usize, m: usize, i: u32, j: u32) -> (usize, usize) {
         let ray = self.rays[middle];
         let Some(&first) = ray.event(m) else { return (middle, middle) };
@@ -442,7 +442,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         true
     }
 
-    /// The event by which half of the load of a sector is met: the border to which its rays are fitted.
+    /// The event before which half of a sector's load lies: the border to which its rays are fitted.
     fn reference(&self, left: usize, right: usize) -> usize {
         let (a, b) = (&self.rays[left], &self.rays[right]);
         let half = |ray: &Ray| {

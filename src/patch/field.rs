@@ -218,7 +218,7 @@ impl<'a, 's> Field<'a, 's> {
         for (bit, plane) in self.planes.iter().enumerate() {
             let excess = plane.excess + dot(&plane.normal, x);
             if excess > 0.0 {
-                // None for planes beyond the last bit: who asks for them has no more.
+                // Planes beyond the last bit get none: users of the bits have fewer.
                 active |= 1_u128.checked_shl(bit as u32).unwrap_or(0);
                 let i = plane.owner as usize;
                 let weighted = weights[i] * excess;
@@ -229,7 +229,7 @@ impl<'a, 's> Field<'a, 's> {
         Look { s: [s[0], s[1]], gradients: [gradients[0], gradients[1]], active }
     }
 
-    /// The height at which S_A = S_B above a point of the plane z = 0, sought from a height nearby: on the boundary 0.
+    /// The height where S_A = S_B above a point of the plane z = 0, sought from one nearby; `None` on a boundary.
     ///
     /// Newton's method with a bracket: S_A − S_B rises with z where the patch is a graph.
     pub fn height(&self, u: f64, v: f64, from: f64) -> Option<f64> {

@@ -14,8 +14,7 @@ use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-/// Parts of the patch's reach by which the centre of pressure may lie off the centre of the rays before they start
-/// anew.
+/// Rays start again where the centre of pressure is farther from their centre than this share of the patch's reach.
 const OFF_CENTRE: f64 = 0.25;
 
 /// Most such starts.
@@ -25,8 +24,8 @@ const MOST_STARTS: usize = 3;
 /// refined any further.
 const FINEST_OF_PARTS: f64 = 1e-8;
 
-/// Up to so many planes of both bodies zones are tried before cells: of boxes they are the cheaper ones, while of
-/// bodies with many planes they mostly end in vain.
+/// Zones are tried before cells up to this number of planes of both bodies: for boxes they cost less, but for bodies
+/// with many planes they mostly fail.
 const FEW: usize = 16;
 
 /// What a patch is computed from.
@@ -52,8 +51,8 @@ pub(super) struct Task<'a> {
 
 /// Computes the patch; its points are handed to `visit`.
 ///
-/// In zones or cells where that is possible, else by rays, as well as with the energy. No finer than the rounding of s
-/// allows, over the depth: faces that touch to rounding would be refined without end.
+/// In zones or cells where possible; else, or with the energy, by rays. No finer than the rounding of s over the depth
+/// allows: faces that touch to rounding would be refined without end.
 pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnMut(PatchPoint)) -> Patch {
     let PatchScratch { planes, ray_planes, nodes, points, pieces, cells, rays, sectors, stack } = scratch;
     let mut field = Field::new(task.a, task.b, task.edges, task.near, planes);

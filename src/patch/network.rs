@@ -27,7 +27,7 @@ const OF_LOAD: f64 = 0.1;
 /// What is left of the misfit in area once the middle of an arc is corrected by it, at most about.
 const CORRECTED: f64 = 0.2;
 
-/// Part of the tolerance up to which a plane may change the depth where its curve is left out.
+/// A plane that changes the depth by less than this share of the tolerance gets no curve.
 const LEFT_OUT: f64 = 0.1;
 
 /// How much farther from the origin an arc may be than its ends and its middle.
@@ -65,7 +65,7 @@ pub(super) struct Network {
     queue: Vec<(u32, [f64; 3])>,
     /// The same of planes one curve of which is drawn: one that crosses the patch twice has two.
     again: Vec<(u32, [f64; 3])>,
-    /// Directions in which planes are to be met, and for which of them also if their curve is drawn.
+    /// Directions in which planes are sought, and the one that counts even if its curve is drawn.
     towards: Vec<([f64; 2], u32)>,
     /// The planes whose curves are drawn, and those that are active at the origin, a bit each.
     pub drawn: u128,
@@ -230,8 +230,8 @@ impl Network {
         Ok(self.vertices.len() as u32 - 1)
     }
 
-    /// Where a curve met another, and that one not the first, the other gets a vertex; whether all such places are on
-    /// curves that are drawn.
+    /// Where one curve met another that did not meet it, the other gets a vertex; returns whether all such places are
+    /// on drawn curves.
     fn meet(&mut self) -> bool {
         for i in 0..self.vertices.len() {
             let Vertex { x, planes: [own, met], uses } = self.vertices[i];

@@ -21,9 +21,9 @@ pub struct Patch {
     /// The point of the axis of the wrench that lies in the plane of the patch: where a law applies the force. World
     /// frame.
     pub pressure_centre: Vector3<f64>,
-    /// The same minus position of A, and of B (of a boundary: of A again).
+    /// The same minus position of A.
     pub branch_a: Vector3<f64>,
-    /// The same minus position of B.
+    /// The same minus position of B; of a boundary, of A again.
     pub branch_b: Vector3<f64>,
     /// The couple along the axis, torque·force/|force|, over K, length⁴.
     pub couple: f64,
@@ -83,9 +83,9 @@ pub struct PatchPoint {
 pub struct PatchFlags(u32);
 
 impl PatchFlags {
-    /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What turns back is
-    /// part of the answer, but a part that no ray from the contact point reaches may be missing, which the estimated
-    /// error does not tell: the far side of a rod that goes through the other body, and the like.
+    /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray continues. What turns back
+    /// is part of the answer, but a part that no ray from the contact point reaches, as the far side of a rod through
+    /// the other body, may be missing: the estimated error does not show that.
     pub const FOLDED: Self = Self(1);
     /// The tolerance was not reached with the most rays (1500, or two million planes looked at in all of their cells),
     /// or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their size at 1e-4); the

@@ -75,8 +75,8 @@ struct Place {
     /// Local frame of A to that of B, and the centre of A there.
     rotation: Matrix3<f64>,
     centre: Vector3<f64>,
-    /// World axes, for which those of a boundary are taken: the normal of a plane, or two edges of a triangle in an
-    /// order that tells its front.
+    /// World axes, which serve as those of a boundary: the normal of a plane, or two edges of a triangle in an order
+    /// that shows its front.
     shape: [Vector3<f64>; 2],
 }
 
@@ -275,7 +275,7 @@ impl PatchState {
 }
 
 impl Motion {
-    /// Beside a depth of 0 no motion is: the quotient is infinite, or not a number.
+    /// At a depth of 0 no motion is small: the quotient is infinite or NaN.
     fn is_small(&self, tolerance: f64) -> bool {
         self.size <= FARTHEST * tolerance.sqrt() && self.change <= OF_SHAPE * tolerance
     }
@@ -311,7 +311,7 @@ impl<'a> Now<'a> {
         settings: &PatchSettings,
     ) -> Result<Self, PatchError> {
         checked(contact.kind, &[*branch], &contact.normal, settings)?;
-        // Planes and triangles are of no particle, and not of each other.
+        // Serial numbers of no particle: one of planes, one of triangles.
         let boundary = if shape[1] == Vector3::zeros() { 0 } else { u64::MAX };
         Ok(Self {
             of: [a.serial(), boundary],

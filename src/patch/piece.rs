@@ -16,8 +16,8 @@ const OF_CAPS: [usize; 5] = [1, 2, 3, 5, 8];
 /// Of a disc, outwards and around, after its first rule, which coarse tolerances begin with.
 const OF_DISCS: [[usize; 2]; 3] = [[4, 10], [6, 14], [10, 24]];
 
-/// Estimated error of a cap over its load: by the rule of one point; and by that of two in each angle a constant, which
-/// the difference of both rules may miss by chance, with a factor of the square of that difference.
+/// Estimated relative error of a cap: with one point `SINGLE`; with two in each angle c + f d², `DOUBLE` = [c, f], d
+/// the relative difference of both rules. d may be small by chance, hence c.
 const SINGLE: f64 = 0.3;
 const DOUBLE: [f64; 2] = [0.003, 0.3];
 
@@ -50,7 +50,7 @@ impl Piece {
         Self { kind, rule: 0, neglected, errors: [0.0; 2], nodes: (0, 0) }
     }
 
-    /// The next finer rule: of a cap one that may bring its error, so far no more than assumed, to what it may be.
+    /// The next finer rule; of a cap, whose first error is assumed, the first that may reach `allowed`.
     pub fn refine(&mut self, allowed: f64) {
         let skips =
             matches!(self.kind, Kind::Cap(_)) && self.rule == 0 && self.errors[0] * DOUBLE[0] > allowed * SINGLE;

@@ -150,8 +150,8 @@ pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>
         let cross = (a[0] - centre[0]) * (b[1] - centre[1]) - (a[1] - centre[1]) * (b[0] - centre[0]);
         let dot = (a[0] - centre[0]) * (b[0] - centre[0]) + (a[1] - centre[1]) * (b[1] - centre[1]);
         // The distance from the middle varies along a side by the angle under which that is seen. Where it is wide,
-        // both sides of the foot are taken apart, with t as the square of what the rule is for: between the two lies
-        // what is nearly a kink.
+        // both sides of the foot are integrated apart, with t the square of the rule's variable: at the foot there is
+        // nearly a kink.
         let points = match () {
             () if dot > cross => 2,
             () if dot > 0.5 * cross => 3,

@@ -71,8 +71,7 @@ impl Node {
 pub(super) struct Event {
     /// Number of the plane, or [`RIM`].
     pub id: u32,
-    /// Distance from the origin of the ray, and height above it; beyond a turn of the patch the way, and nothing of
-    /// use.
+    /// Distance from the origin of the ray, and height above it; with turned axes the length walked, `zeta` unused.
     pub rho: f64,
     pub zeta: f64,
     /// Integral of the pressure up to here.
@@ -352,8 +351,8 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         next
     }
 
-    /// The integral of a plane or of the rim (as an inverse distance from the origin) in the cell that follows the
-    /// first `m` events of a ray: where it would be met if nothing else were before.
+    /// Inverse distance from the origin to a plane or the rim in the cell that follows the first `m` events of a ray,
+    /// as if nothing else were met before.
     pub fn inverse_distance(&mut self, line: &Line, ray: &Ray, m: usize, id: u32) -> Option<f64> {
         if ray.is_tilted {
             return None;

@@ -93,7 +93,7 @@ impl RimPoint {
         }
         let at = |t: f64| [chord[0] + t * out[0], chord[1] + t * out[1], chord[2]];
         let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]));
-        // Inwards lies the rim on the other side, which of a sliver is near.
+        // Inwards is the other side of the rim, which in a sliver is near.
         let is_outwards =
             |(x, _): &([f64; 3], Look)| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -NEAR * length;
         let (x, look) = x.filter(is_outwards).or_else(|| outwards(field, at, (out, length), sagitta))?;
@@ -136,8 +136,8 @@ fn outwards(
     None
 }
 
-/// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; `function`
-/// has its value and gradient; and what was seen next to it. `None` where it is farther than a length.
+/// The point of the patch near x, off it in one direction of the frame's plane only, where a function is 0; and the
+/// field beside it. `function` gives value and gradient. `None` where it is farther than `length`.
 fn on_line(
     field: &Field,
     mut x: [f64; 3],
@@ -178,8 +178,8 @@ impl CurvePart {
         [0.25, 0.75].map(|t| parabola([&self.from, &self.middle, &self.to], t))
     }
 
-    /// Estimate of what ∫ p is off where the parabola through the three points strays from the curve: a point of
-    /// quadrature in between counts the square of the plane's excess, or does not.
+    /// Estimated error of ∫ p where the parabola through the three points departs from the curve: a point of quadrature
+    /// between the two wrongly counts, or omits, the square of the excess.
     pub fn straying(&self, field: &Field) -> f64 {
         let plane = &field.planes[self.id as usize];
         let (_, length) = across(&self.from, &self.to);
@@ -232,7 +232,7 @@ impl Misfit {
             misfit.load += 0.25 * 32.0 / 90.0 * length * steepness * distance * distance;
         }
         misfit.area = signed.abs();
-        // Outwards by d the middle takes 2/3 of d times the chord with it.
+        // A shift of the middle by d adds 2/3 of d times the chord.
         misfit.correction = out.map(|c| -1.5 * signed / length * c);
         Some(misfit)
     }
@@ -251,11 +251,11 @@ pub(super) struct Known {
     pub least_beyond: f64,
 }
 
-/// A plane that on an arc is not in the state that is known: where its curve is not drawn that at the origin, else that
-/// in the middle of the arc. Its number, and a point of the arc where it is not.
+/// A plane whose state on an arc is not the known one: that at the origin if its curve is not drawn, else that in the
+/// middle of the arc. Its number, and a point where the state differs.
 ///
 /// `own`: the planes whose curves end at the ends of the arc. Along a parabola through the three points the excess of a
-/// plane is one; where the arc turns too much for that (not `is_arc`), its middle alone is looked at.
+/// plane is a quadratic; where the arc turns too much (not `is_arc`), only its middle is checked.
 pub(super) fn unmet_plane(
     field: &Field,
     [from, middle, to]: [&RimPoint; 3],
@@ -267,7 +267,7 @@ pub(super) fn unmet_plane(
         let is_drawn = known.drawn >> i & 1 == 1;
         let is_on = if is_drawn { m > 0.0 } else { known.at_origin >> i & 1 == 1 };
         let sign = if is_on { -1.0 } else { 1.0 };
-        // The parabola stays below all three and its bend.
+        // The parabola is ≤ the largest plus its bend.
         if (sign * a).max(sign * m).max(sign * b) + (a - 2.0 * m + b).abs() <= 0.0 {
             continue;
         }

@@ -3,7 +3,7 @@
 use super::rules::GAUSS_KRONROD;
 use std::sync::LazyLock;
 
-/// Error of 3 rays over the load of a sector and the third power of the relative variation of the load among them.
+/// Relative error of 3 rays in a sector over the third power of the relative variation of their loads.
 const OF_VARIATION: f64 = 0.05;
 
 /// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
@@ -73,7 +73,7 @@ fn error_of_seven(loads: &[[f64; 3]]) -> f64 {
     }
     let size = coefficients.map(|c| norm(&c));
     let (high, low) = (size[4].max(size[5]), size[1].max(size[2]).max(size[3]));
-    // By six degrees more they fall twice as much again as by three.
+    // The fall over six degrees is the square of that over three.
     if high > 0.0 { high * (high / low).powi(2).min(1.0) } else { 0.0 }
 }
 

@@ -29,7 +29,7 @@ pub(super) fn stiffness(field: &Field, points: &[Node]) -> Matrix6<f64> {
     sum
 }
 
-/// The same in the axes in which those of the given one are these columns.
+/// A stiffness, turned to the frame in which its axes are these columns.
 pub(super) fn turned(stiffness: &Matrix6<f64>, axes: &Matrix3<f64>) -> Matrix6<f64> {
     let mut turned = Matrix6::zeros();
     for (row, column) in [(0, 0), (0, 3), (3, 0), (3, 3)] {

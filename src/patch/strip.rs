@@ -137,8 +137,8 @@ impl Strip {
         }
     }
 
-    /// ∫ p over what lies beyond an end where s = 1 at the start, since s falls at first with the angle, about, over
-    /// the width there.
+    /// Estimate of ∫ p beyond an end where s = 1 at the start, over the width there: with the angle s first falls
+    /// below 1.
     pub fn overhang(&self) -> f64 {
         let Wave { a, b, size } = self.wave;
         let rise = size - a;
@@ -212,7 +212,7 @@ impl Strip {
         Some(())
     }
 
-    /// Which of its ends it tapers to, as s = 1 there; none where it is both.
+    /// The end that it tapers to, as s = 1 there; `None` if both or neither.
     pub fn tapers(&self) -> Option<usize> {
         match self.ends {
             [End::At(_), End::Line { .. }] => Some(0),

@@ -30,7 +30,7 @@ impl Zones<'_, '_, '_> {
         })
     }
 
-    /// The polygon of the two planes that face each other most, with strips and caps around it; within, `None` where it
+    /// The polygon of the two planes that face each other most, left in `corners[0]`; the inner option is `None` if it
     /// is empty.
     pub fn face(&mut self, active: [&[usize]; 2], corners: &mut [Vec<Corner>; 2]) -> Option<Option<(Level, Faces)>> {
         let unit = |k: usize| normal(&self.field.planes[k]).normalize();
@@ -142,7 +142,7 @@ impl Zones<'_, '_, '_> {
         self.push(Kind::Cap(cap), &[outline[0], outline[1], outline[2], corner], &[], neglected);
     }
 
-    /// What planes may change, over an area, that are on at one of these places though they do not count as active, or
+    /// Largest change of ∫ p over an area by planes that are active at one of these places but not counted as such, or
     /// the reverse.
     fn neglected(&self, places: &[Vector], area: f64, active: &[u32]) -> f64 {
         let mut squares = [0.0_f64; 2];
