@@ -20,6 +20,9 @@ const SETTLED: f64 = 1e-7;
 const EXCESS: f64 = 1e-5;
 /// Most programs of a sequence. Slopes of 69 blocks and walls of 52 need 16, walls of some 100 more than 40 (measured).
 const MOST: u32 = 200;
+/// After so many programs a factor within this part of itself is taken if the excess, which is reported, is below this.
+const ROUGHLY: f64 = 1e-5;
+const ROUGH_EXCESS: f64 = 1e-3;
 /// Largest force that may stay unbalanced on a body, over the largest force.
 const BALANCED: f64 = 1e-6;
 
@@ -144,6 +147,22 @@ enum Ended {
 }
 
 impl Sequence<'_> {
+    /// The state with this part κ of the strength, below which forces that clamp blocks grow without bound.
+    fn clamped(self, kappa: f64, programs: u32) -> Result<Ended, EquilibriumError> {
+        if kappa <= SETTLED {
+            return Err(self.unlimited);
+        }
+        let kappa = kappa * (1.0 + EXCESS);
+        let reduced = |given: &Strength| Strength { slope: kappa * given.slope, base: kappa * given.base, ..*given };
+        let strengths: Vec<_> = self.problem.strengths.iter().map(reduced).collect();
+        let none = vec![[0.0; 3]; strengths.len()];
+        let near = Near { weight: 1.0, forces: &none };
+        match solve(&self.problem.assembly, &strengths, Goal::Rest, Some(near))? {
+            Outcome::Solved(solved) => Ok(Ended::Settled(Solved { factor: kappa, ..solved }, 0.0, programs)),
+            _ => Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() }),
+        }
+    }
+
     /// `first`: dilatancy of the first program; `strengths` from the dilatancy and the last program; `strength`: what
     /// multiplies the given one at a factor.
     fn run(
@@ -154,7 +173,10 @@ impl Sequence<'_> {
     ) -> Result<Ended, EquilibriumError> {
         let mut dilatancy = first;
         let mut last: Option<Solved> = None;
-        let mut factors = Vec::new();
+        // With full dilatancy a scene stands at κ if and only if its program has φ ≤ κ, or no least φ: between the
+        // largest κ with which it does not stand and the least with which it does lies the factor.
+        let mut bracket = [0.0, f64::INFINITY];
+        let (mut factors, mut beyond) = (Vec::new(), f64::INFINITY);
         for programs in 1..=MOST {
             let now = strengths(dilatancy, last.as_ref());
             let near = last.as_ref().filter(|_| dilatancy < 1.0);
@@ -169,8 +191,26 @@ impl Sequence<'_> {
                     let status = format!("program {programs} of the sequence has no equilibrium");
                     return Err(EquilibriumError::NotConverged { status });
                 }
-                Outcome::Unlimited => return Err(self.unlimited),
+                Outcome::Unlimited => {
+                    let Some(last) = last.as_mut().filter(|_| self.goal == Goal::Strength) else {
+                        return Err(self.unlimited);
+                    };
+                    // Friction of this κ clamps blocks with forces of any size.
+                    if self.flow == Flow::NonDilatant {
+                        dilatancy *= KEPT;
+                    } else {
+                        bracket[1] = last.factor;
+                        last.factor = between(bracket);
+                        if is_closed(bracket) {
+                            return self.clamped(bracket[1], programs);
+                        }
+                    }
+                    continue;
+                }
             };
+            if let Some(last) = last.as_ref().filter(|_| self.goal == Goal::Strength && dilatancy == 1.0) {
+                bracket[usize::from(solved.factor <= last.factor)] = last.factor;
+            }
             let change = last.as_ref().map_or(f64::INFINITY, |last| (solved.factor - last.factor).abs());
             let excess = self.problem.excess(&solved, strength(solved.factor));
             // One program of load factors is the whole of the associated one.
@@ -187,12 +227,33 @@ impl Sequence<'_> {
                 _ => 0.0,
             };
             factors.push(solved.factor);
+            beyond = excess;
             last = Some(solved);
+            if let Some(last) = last.as_mut().filter(|last| dilatancy == 1.0 && last.factor >= bracket[1]) {
+                last.factor = between(bracket);
+                if is_closed(bracket) {
+                    return self.clamped(bracket[1], programs);
+                }
+            }
         }
-        let end = &factors[factors.len() - 10..];
-        let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().fold(end[0], of));
-        Err(EquilibriumError::NotSettled { programs: MOST, least, most })
+        let end = &factors[factors.len().saturating_sub(10)..];
+        let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().reduce(of).unwrap_or(f64::NAN));
+        match last {
+            Some(solved) if dilatancy == 0.0 && most - least <= ROUGHLY * most.abs() && beyond <= ROUGH_EXCESS => {
+                Ok(Ended::Settled(solved, beyond, MOST))
+            }
+            _ => Err(EquilibriumError::NotSettled { programs: MOST, least, most }),
+        }
     }
+}
+
+/// A number between two positive ones, or below the second where the first is 0.
+fn between([low, high]: [f64; 2]) -> f64 {
+    if low > 0.0 { (low * high).sqrt() } else { KEPT * high }
+}
+
+fn is_closed([low, high]: [f64; 2]) -> bool {
+    high - low <= EXCESS * high || high <= SETTLED
 }
 
 /// A scene in its own units, and its strength as given.

@@ -50,6 +50,27 @@ def chosen(mass, friction, random):
     return found[random.integers(len(found))] if found else None
 
 
+def limit_analysis(mass, one, friction):
+    """(how it compares with block theory, factor) of limit analysis of a block among its neighbours, which are held:
+    "same" to 1e-4; "turns" where the factor is lower, since the block may turn over; "clamped" where it is higher, by
+    forces that faces which open along the motion keep; "no answer".
+    """
+    held = np.ones(len(mass), bool)
+    held[list(one.blocks)] = False
+    try:
+        found = rock.limit_analysis(mass, held, friction=friction, density=DENSITY)
+        factor = found.factor if found.stands else 0.0
+    except ValueError as error:
+        if "infinite" not in str(error):
+            raise
+        factor = np.inf
+    except RuntimeError:
+        return "no answer", np.nan
+    if factor == one.factor or abs(factor - one.factor) <= 1e-4 * one.factor < np.inf:
+        return "same", factor
+    return "turns" if factor < one.factor else "clamped", factor
+
+
 def judged(mass, one, friction):
     """moved() and how near to rigid and sharp blocks: again with stiffer joints and sharper edges where that is not
     what block theory says.

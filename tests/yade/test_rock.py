@@ -477,6 +477,20 @@ for seed in range(15):
             held = math.tan(math.radians(friction)) * pressing.sum() / np.linalg.norm(along)
             check.close(one.factor, held, 1e-6 * (1 + held), f"seed {seed}: factor of safety")
 
+# Against limit analysis of the same block among its neighbours, which may find more: that it turns over.
+said = []
+for seed in range(80):
+    mass, friction, random = slope_cuts.cut(seed)
+    one = slope_cuts.chosen(mass, friction, random)
+    if one is not None:
+        said.append((one.mode, *slope_cuts.limit_analysis(mass, one, friction), one.factor))
+check.true(sum(one[1] == "same" for one in said) >= 0.9 * len(said) > 50, f"{said}")
+check.true(not any(one[2] == np.inf > one[3] for one in said), f"no cut stands by the shape of its faces alone: {said}")
+mass, friction, _ = slope_cuts.cut(0)
+check.raises(ValueError, lambda: rock.limit_analysis(mass, range(len(mass))), "all blocks held", "hold fewer blocks")
+check.raises(ValueError, lambda: rock.limit_analysis(mass, [0], "?"), "an unknown question", "question='?' is unknown")
+check.raises(ValueError, lambda: rock.limit_analysis(mass, [0], friction=90), "a vertical cone", "friction=90")
+
 # Against the simulation: what block theory frees moves by a millimetre, and nothing else does.
 tried, moving = 0, 0
 for seed in range(40):

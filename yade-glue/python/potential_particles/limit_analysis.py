@@ -21,7 +21,7 @@ SAME = 1e-9
 SLOW = 0.01
 
 
-class _Body(ctypes.Structure):
+class Body(ctypes.Structure):
     _fields_ = [(name, ctypes.c_double * 3)
                 for name in ("centre", "dead_force", "dead_torque", "live_force", "live_torque")]
     _fields_ += [("held", ctypes.c_uint64)]
@@ -75,8 +75,7 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
     RuntimeError: the programs did not converge; the scene may stand or fall.
     """
     import yade
-    if question not in QUESTIONS:
-        raise ValueError(f"question={question!r} is unknown: give {', '.join(map(repr, QUESTIONS))}")
+    asked(question)
     if yade.O.periodic:
         raise ValueError("limit analysis has no periodic cells: hold bodies at the borders in their place")
     gravity = _gravity(yade.O.engines)
@@ -93,21 +92,38 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
         raise ValueError(f"body {alone[0]} is free and touches nothing: hold it, take it out, or close a gap")
     ids = sorted(touched)
     place = {body: index for index, body in enumerate(ids)}
-    bodies = (_Body * len(ids))(*(_body(yade.O, one, gravity, direction, live.get(one)) for one in ids))
-    contacts = (_Contact * len(found))()
-    for row, ((first, second), contact, corners, area) in zip(contacts, found):
-        row.bodies[:] = place[first], place[second]
+    bodies = [_body(yade.O, one, gravity, direction, live.get(one)) for one in ids]
+    rows = [((place[first], place[second]), contact.geom.normal, _strength(contact.phys), corners, area)
+            for (first, second), contact, corners, area in found]
+    return solved(question, dilatant, bodies, ids, rows, [(one[1].id1, one[1].id2) for one in found])
+
+
+def solved(question, dilatant, bodies, names, rows, pairs):
+    """The Equilibrium of rigid bodies [Body] with these names. rows, one a contact: the places of its two bodies, the
+    normal from the first to the second, (friction, cohesion, tension), corners (n, 3) and area; pairs: their names.
+    """
+    contacts = (_Contact * len(rows))()
+    for row, (of, normal, (friction, cohesion, tension), corners, area) in zip(contacts, rows):
+        row.bodies[:], row.normal[:] = of, normal
         row.corner_count, row.area = len(corners), area
-        row.normal[:] = contact.geom.normal
-        row.friction, row.cohesion, row.tension = _strength(contact.phys)
-    corners = np.ascontiguousarray(np.vstack([one[2] for one in found]))
-    result, forces, velocities = _Result(), np.zeros_like(corners), np.zeros((len(ids), 6))
-    library.refuse("pp_equilibrium", ctypes.c_uint32(QUESTIONS[question]), ctypes.c_uint32(bool(dilatant)), bodies,
-                  len(ids), contacts, len(found), corners, len(corners), ctypes.byref(result), forces, velocities)
-    return Equilibrium(question, bool(result.stands), result.factor, [(one[1].id1, one[1].id2) for one in found],
-                       corners, np.repeat(np.arange(len(found)), [len(one[2]) for one in found]), forces,
-                       {one: (velocities[i, :3], velocities[i, 3:]) for one, i in place.items()}, result.unbalanced,
+        row.friction, row.cohesion, row.tension = friction, cohesion, tension
+    counts = [len(one[3]) for one in rows]
+    corners = np.ascontiguousarray(np.vstack([one[3] for one in rows]))
+    result, forces, velocities = _Result(), np.zeros_like(corners), np.zeros((len(bodies), 6))
+    library.refuse("pp_equilibrium", ctypes.c_uint32(QUESTIONS[question]), ctypes.c_uint32(bool(dilatant)),
+                   (Body * len(bodies))(*bodies), len(bodies), contacts, len(rows), corners, len(corners),
+                   ctypes.byref(result), forces, velocities)
+    return Equilibrium(question, bool(result.stands), result.factor, pairs, corners,
+                       np.repeat(np.arange(len(rows)), counts), forces,
+                       {name: (row[:3], row[3:]) for name, row in zip(names, velocities)}, result.unbalanced,
                        result.excess, result.programs)
+
+
+def asked(question):
+    """The question itself, if there is one of this name."""
+    if question not in QUESTIONS:
+        raise ValueError(f"question={question!r} is unknown: give {', '.join(map(repr, QUESTIONS))}")
+    return question
 
 
 def _owner(body):
@@ -131,7 +147,7 @@ def _body(scene, number, gravity, direction, live):
     if free and blocked:
         raise ValueError(f"body {number} has blockedDOFs={state.blockedDOFs!r}: limit analysis knows bodies that are "
                          "held and bodies that are free; block all or none")
-    made = _Body(held=not free)
+    made = Body(held=not free)
     made.centre[:] = state.pos
     if free:
         _refuse_motion(body, np.linalg.norm(gravity))
@@ -183,7 +199,7 @@ def _polygon(contact):
         across /= np.linalg.norm(across)
         frame = np.stack([across, np.cross(normal, across)])
         reach = 2.0 * max((abs(offset - n @ point) for n, offset in bounds), default=0.0) or 1.0
-        flat = _clipped(frame, point, bounds, 10.0 * reach)
+        flat = clipped(frame, point, bounds, 10.0 * reach)
         corners = flat if len(flat) else corners
     area = 0.5 * np.linalg.norm(np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0))
     return tuple(_owner(body).id for body in pair), contact, corners, float(area)
@@ -219,7 +235,7 @@ def _bounds(body, outwards):
     return [None]
 
 
-def _clipped(frame, point, bounds, reach):
+def clipped(frame, point, bounds, reach):
     """The polygon of a plane, through a point and along both rows of the frame, within half-spaces: (n, 3)."""
     polygon = reach * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     for n, offset in bounds:

@@ -17,10 +17,11 @@ from .joints import Joint, JointSet, joint, polygon, rectangle
 from .loads import apply_loads, face_pressure, water_pressure
 from .mass import Block, RockMass, slice
 from .scene import bodies, excavate, joint_engine
+from .stability import limit_analysis
 from .surfaces import JointRecorder, joint_table
 
 __all__ = [
     "COLOURS", "Block", "Domain", "Joint", "JointRecorder", "JointSet", "KeyBlock", "RockMass", "apply_loads", "bodies",
-    "excavate", "face_pressure", "joint", "joint_engine", "joint_table", "key_blocks", "polygon", "read_blockgen",
+    "excavate", "face_pressure", "joint", "joint_engine", "joint_table", "key_blocks", "limit_analysis", "polygon", "read_blockgen",
     "read_dfn", "rectangle", "slice", "summary", "water_pressure"
 ]

@@ -22,7 +22,7 @@ import numpy as np
 
 from ..arguments import LARGE, positive, vector, whole, within
 from .mass import LEAST_SHARE, OF_DOMAIN, planes_of
-from .scene import _marked, loads_of
+from .scene import marked, loads_of
 
 # Of unit vectors: a direction that leaves a plane by less lies in it.
 TOLERANCE = 1e-9
@@ -85,10 +85,9 @@ def key_blocks(mass, free, friction=30.0, cohesion=0.0, density=2600.0, gravity=
     loads: (blocks, 6), forces (and torques, which do not count) beside it, as of water_pressure.
     """
     free = planes_of(mass, free, "free")
-    friction = _by_set(friction, "friction", lambda value, name: within(value, 0.0, 89.9, name))
-    cohesion = _by_set(cohesion, "cohesion", lambda value, name: within(value, 0.0, math.inf, name))
+    friction, cohesion = by_set(friction, "friction", 89.9), by_set(cohesion, "cohesion")
     weight = positive(density, "density") * vector(gravity, "gravity")
-    gone = _marked(removed, len(mass), "removed")
+    gone = marked(removed, len(mass), "removed")
     pushed = np.zeros((len(mass), 3)) if loads is None else loads_of(loads, len(mass))[:, :3]
     pressed, touching = _areas(mass, gone)
     outer = (mass.faces["of"] == OF_DOMAIN) & ~np.isin(mass.faces["index"].astype(int), free)
@@ -210,12 +209,14 @@ def _areas(mass, gone):
     return pressed, touching
 
 
-def _by_set(given, name, checked):
+def by_set(given, name, most=math.inf):
+    """Of a number, or a dict by entries of the `joints` of slice(): the value, 0 to `most`, for an entry."""
     if not isinstance(given, dict):
-        value = checked(given, name)
+        value = within(given, 0.0, most, name)
         return lambda entry: value
     values = {
-        entry if entry is None else whole(entry, 0, LARGE, f"an entry of {name}"): checked(value, f"{name}[{entry!r}]")
+        entry if entry is None else whole(entry, 0, LARGE, f"an entry of {name}"): within(value, 0.0, most,
+                                                                                          f"{name}[{entry!r}]")
         for entry, value in given.items()
     }
     if None not in values:

@@ -8,7 +8,7 @@ Over a triangle of area A a pressure that is p_i at its corners x_i, and linear 
 import numpy as np
 
 from ..arguments import number, positive
-from .scene import _marked, loads_of
+from .scene import marked, loads_of
 
 
 def face_pressure(mass, faces, pressure):
@@ -66,7 +66,7 @@ def apply_loads(ids, loads):
 
 def _summed(mass, faces, loaded):
     loads = np.zeros((len(mass), 6))
-    for face in np.flatnonzero(_marked(faces, len(mass.faces), "faces")):
+    for face in np.flatnonzero(marked(faces, len(mass.faces), "faces")):
         corners, pressure = loaded(mass.outline(face))
         if len(corners) < 3:
             continue

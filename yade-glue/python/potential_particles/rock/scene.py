@@ -58,7 +58,7 @@ def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=Non
     overlap = max(TOUCH * size,
                   ROUNDING
                   * np.abs(mass.corners).max()) if overlap is None else within(overlap, 0.0, math.inf, "overlap")
-    still = _marked(fixed, len(mass), "fixed")
+    still = marked(fixed, len(mass), "fixed")
     held = np.zeros(mass.pieces.max(initial=-1) + 1, bool)
     held[mass.pieces[still]] = True
     made = []
@@ -218,7 +218,7 @@ def _shape(block, wanted, overlap):
     return shape, orientation
 
 
-def _marked(chosen, count, name):
+def marked(chosen, count, name):
     """(count,) of bool from numbers or from that."""
     given = np.asarray(chosen)
     if given.dtype == bool and given.shape == (count,):

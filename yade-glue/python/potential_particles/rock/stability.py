@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Limit analysis of a rock mass as it was cut, without a simulation: does it stand, how much more could it bear, how
+much weaker could its joints be? With turns and with all blocks at once, which block theory leaves out.
+"""
+import math
+
+import numpy as np
+
+from ..arguments import positive, vector
+from ..limit_analysis import Body, asked, clipped, solved
+from .block_theory import by_set
+from .mass import LEAST_SHARE
+from .scene import loads_of, marked
+
+
+def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0, tension=0.0, density=2600.0,
+                   gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False):
+    """Whether forces on the faces of a RockMass can hold its blocks: an Equilibrium of its pieces, as
+    potential_particles.limit_analysis() gives it of a scene; a piece goes by the number of its first block.
+
+    held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES); removed: those that are
+    taken out. question, push, dilatant: as there. friction, density, gravity and loads: as of key_blocks(). cohesion,
+    tension: strength of joints, force per area, numbers or dicts by entries of the `joints` of slice().
+    """
+    asked(question)
+    friction = by_set(friction, "friction", 89.9)
+    cohesion, tension = by_set(cohesion, "cohesion"), by_set(tension, "tension")
+    weight = positive(density, "density") * vector(gravity, "gravity")
+    direction = vector((0, 0, 0) if push is None else push, "push")
+    held, gone = marked(held, len(mass), "held"), marked(removed, len(mass), "removed")
+    pushed = np.zeros((len(mass), 6)) if loads is None else loads_of(loads, len(mass))
+    numbers, place = _pieces(mass, gone)
+    bodies = [_body(mass, blocks, held, weight, direction, pushed) for blocks in numbers]
+    rows, pairs = [], []
+    for (first, second), area in mass.partners:
+        faces = int(first), int(second)
+        of = tuple(place[int(mass.faces["block"][face])] for face in faces)
+        apart = -1 not in of and of[0] != of[1] and not (bodies[of[0]].held and bodies[of[1]].held)
+        if apart and area > LEAST_SHARE * mass.faces["area"][faces[0]]:
+            entry = mass.set_of_face[faces[0]]
+            strength = math.tan(math.radians(friction(entry))), cohesion(entry), tension(entry)
+            rows.append((of, mass.faces["plane"][faces[0], :3], strength, _shared(mass, faces), float(area)))
+            pairs.append(tuple(numbers[one][0] for one in of))
+    if not rows:
+        raise ValueError("no free block of the mass touches another one: hold fewer blocks")
+    return solved(question, dilatant, bodies, [blocks[0] for blocks in numbers], rows, pairs)
+
+
+def _pieces(mass, gone):
+    """Blocks of each piece that is there, and for each block the number of its piece, -1 without one."""
+    place, numbers = np.full(len(mass), -1), []
+    for piece in np.unique(mass.pieces[~gone]):
+        blocks = np.flatnonzero((mass.pieces == piece) & ~gone)
+        place[blocks] = len(numbers)
+        numbers.append([int(one) for one in blocks])
+    return numbers, place
+
+
+def _body(mass, blocks, held, weight, direction, pushed):
+    volumes, centroids = mass.blocks["volume"][blocks], mass.blocks["centroid"][blocks]
+    centre = volumes @ centroids / volumes.sum()
+    made = Body(held=bool(held[blocks].any()))
+    made.centre[:] = centre
+    if not made.held:
+        dead = weight * volumes.sum()
+        made.dead_force[:] = dead + pushed[blocks, :3].sum(0)
+        made.dead_torque[:] = (pushed[blocks, 3:] + np.cross(centroids - centre, pushed[blocks, :3])).sum(0)
+        made.live_force[:] = np.linalg.norm(dead) * direction
+    return made
+
+
+def _shared(mass, faces):
+    """The polygon that two faces have in common: the plane of the first, within the edges of both."""
+    normal = mass.faces["plane"][faces[0], :3]
+    bounds = []
+    for face in faces:
+        corners = mass.outline(face)
+        along = np.roll(corners, -1, axis=0) - corners
+        outwards = np.cross(along, mass.faces["plane"][face, :3])
+        lengths = np.linalg.norm(outwards, axis=1)
+        bounds += [(out / length, out @ at / length) for out, length, at in zip(outwards, lengths, corners) if length > 0]
+    across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    across /= np.linalg.norm(across)
+    corners = mass.outline(faces[0])
+    middle = corners.mean(axis=0)
+    reach = 2.0 * np.linalg.norm(corners - middle, axis=1).max()
+    polygon = clipped(np.stack([across, np.cross(normal, across)]), middle, bounds, reach)
+    return polygon if len(polygon) else middle[None]
