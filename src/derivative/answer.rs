@@ -119,9 +119,9 @@ impl ShapeGradient {
 pub struct DerivativeFlags(u32);
 
 impl DerivativeFlags {
-    /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, cannot be told
-    /// within the bound on the place of the point. The derivatives are those for the side on which it is off; that of s
-    /// is the same on both.
+    /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, is uncertain
+    /// within the bound on that point. The derivatives are those of the side on which it is inactive; that of s is the
+    /// same on both.
     pub const SWITCHING: Self = Self(1);
     /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but
     /// s, moves as the regularisation says ([`crate::Settings::flat_regularisation`]), by up to its inverse, and only

@@ -307,7 +307,7 @@ impl<'a> Task<'a, '_> {
         Optimum::refined(kind, [Place::precise(&bodies[0], branch_a), Place::precise(&bodies[1], branch_b)])
     }
 
-    /// `then` of the contact: in 32 digits where doubles have lost too many. It stays where it is made, as it is large.
+    /// `then` of the contact: in 32 digits where doubles have lost too many. The contact is not moved, as it is large.
     #[inline(always)]
     fn linearised<T>(&self, then: impl FnOnce(&dyn Linearised) -> T) -> Result<T, DerivativeError> {
         let bodies = [0, 1].map(|i| Potential::new(self.bodies[i], self.least_sphericity));
@@ -329,7 +329,7 @@ impl<'a> Task<'a, '_> {
     }
 }
 
-/// Relative rounding of the way between P1 and P2 from which on numbers of 32 digits are taken.
+/// Relative rounding of P1 − P2 above which 32 digits are used.
 const LOST_ACROSS: f64 = 1e-12;
 
 /// What P1 and P2 are.

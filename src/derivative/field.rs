@@ -32,8 +32,8 @@ pub(super) struct Place<'a, N: Single = f64> {
     /// Bound on the distance of the point to the optimum, and on what it has lost to rounding, lengths.
     error: f64,
     rounding: f64,
-    /// Planes whose depth is within so much of 0 are active if they are listed: a stiff plane carries its share with a
-    /// depth below the rounding of the point. 0 where the sign of the depth decides.
+    /// Planes with |depth| up to this are active if they are listed: a stiff plane carries its share with a depth below
+    /// the rounding of the point. 0 where the sign of the depth decides.
     blur: f64,
     listed: Listed,
 }
@@ -76,16 +76,16 @@ pub(super) struct Field<N> {
     pub value: N,
     pub gradient: Vector3<N>,
     pub hessian: Symmetric<N>,
-    /// Whether no plane is within the doubt about the point of being switched.
+    /// Whether no plane may switch within the error of the point.
     pub clear: bool,
-    /// Bound on the relative rounding of the depths by which the gradient is made; infinite where the sign of one
-    /// cannot be told.
+    /// Bound on the relative rounding of the depths that make the gradient; infinite where the sign of one is
+    /// uncertain.
     pub lost: f64,
     /// Whether the particle's own potential has a slope, and not that of the regularisation alone.
     pub sloped: bool,
 }
 
-/// The sphericity below which a particle counts as so round, as a weight of its sphere.
+/// The least sphericity as a weight of the particle's sphere.
 fn regularised(particle: &Particle, least_sphericity: f64) -> f64 {
     least_sphericity / particle.bounding_radius().powi(2)
 }
@@ -182,7 +182,7 @@ impl<N: Single> Potential<'_, N> {
 }
 
 impl<'a, N: Single> Place<'a, N> {
-    /// With the planes as the signs of their depths say.
+    /// Planes are active by the sign of their depth.
     pub fn by_sign(self) -> Self {
         Self { blur: 0.0, ..self }
     }
@@ -308,7 +308,7 @@ impl<'a, N: Single> Place<'a, N> {
         if shape.plane_weight > 0.0 {
             self.visit_active(&y, &mut add);
         } else if r > 0.0 {
-            // At k = 1 the planes come on with the first step below it.
+            // At k = 1 the planes count with the first step below it.
             for place in 0..shape.len() {
                 let n = shape.normal(place).map(N::of);
                 let depth = n.dot(&y) - N::of(shape.offset(place));

@@ -30,10 +30,10 @@
 //! double's, the optimum of a pair is refined by Newton's method in double-doubles, among planes whose depth is below
 //! the rounding of the point by an active set, and differentiated there.
 //!
-//! **Where there is none.** S has kinks in its second derivative where a plane comes on. There the derivative of s goes
-//! on, those of the point and all else are one-sided: planes with t ≤ 0 count as off. With k = 0 a flat face may leave
-//! TᵀHT singular: it is that of the regularised problem whose optimum the contact is. [`DerivativeFlags`] tells of
-//! both. docs/derivatives.md has examples and what was measured. Each file uses only those above it:
+//! **Where they do not exist.** The second derivative of S jumps where a plane becomes active. There the derivative of
+//! s is continuous, all others are one-sided: planes with t ≤ 0 count as inactive. With k = 0 a flat face may leave
+//! TᵀHT singular: it is that of the regularised problem whose optimum the contact is. [`DerivativeFlags`] reports both.
+//! docs/derivatives.md has examples and measurements. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -20,7 +20,7 @@ pub(super) enum Kind {
     OnA,
     /// S_B = 1, least S_A: P2.
     OnB,
-    /// Least S_A on a part of a boundary on which a point has so many coordinates, along the first axes.
+    /// Least S_A on a part of a boundary with this number of coordinates, along the first axes.
     OnBoundary(usize),
 }
 
@@ -38,8 +38,8 @@ const RUN: f64 = 1e-10;
 /// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
 const MOST_STEPS: usize = 30;
 
-/// Change of the normals at which these have converged, and below which they have where they change no less with a
-/// further step: what is left is rounding.
+/// Change of the normals at which they have converged, and below which they have if a further step changes them no
+/// less: the rest is rounding.
 const CONVERGED: [f64; 2] = [1e-24, 1e-13];
 
 /// An optimum with its linearised optimality conditions.
@@ -332,7 +332,7 @@ impl<'a, N: Single> Optimum<'a, N> {
         })
     }
 
-    /// The weights on velocity and turn of a body, world axes, at this point, that weights on its potential come to.
+    /// The weights on velocity and turn of a body at this point, world axes, from weights on its potential.
     pub fn on_motion(&self, i: usize, weights: &FieldWeights<N>) -> [Vector3<N>; 2] {
         let field = &self.fields[i];
         let gamma = self.axes.tr_mul(&weights.gamma);

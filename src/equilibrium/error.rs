@@ -46,7 +46,7 @@ pub enum EquilibriumError {
     /// No free body is loaded.
     #[error("no free body is loaded: give weights, or another load")]
     NoLoad,
-    /// The load factor of nothing.
+    /// No live load is given.
     #[error("no free body has a live load, so that no load factor exists: give live loads")]
     NoLiveLoad,
     /// No load factor, however large, makes it fall.

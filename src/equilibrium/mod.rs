@@ -16,8 +16,8 @@
 //! dilate; of the many states that it may be in, motion without dilatancy selects those in which friction bears
 //! nothing but the slip ([`Flow::NonDilatant`]). Then strength is bounded by the normal forces of the last program,
 //! until these no longer change (M. Gilbert, C. Casapulla and H. M. Ahmed, Computers and Structures 84, 2006,
-//! 873-887). The associated factor is an upper bound of it. That states without dilatancy need not be unique, so that
-//! the sequence finds one of them, is a property of the problem.
+//! 873-887). The associated factor is an upper bound of it. States without dilatancy need not be unique, by the nature
+//! of the problem; the sequence finds one of them.
 //!
 //! ```
 //! use potential_particles::equilibrium::{Body, Contact, Flow, Load, Scene, load_factor};

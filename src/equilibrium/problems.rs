@@ -6,7 +6,7 @@ use super::program::{BEST, Goal, Near, Outcome, Solved, Strength, solve};
 use super::scene::{Scene, Velocity};
 use nalgebra::Vector3;
 
-/// Part of the dilatancy that each program of a sequence keeps of that of the last one: the sequence ends at none.
+/// Factor from the dilatancy of one program of a sequence to that of the next; the last has none.
 const KEPT: f64 = 0.2;
 /// Dilatancy, as a part of tan φ, that counts as 0: it changes the factor by less than the tolerance of the sequence.
 const NO_DILATANCY: f64 = 1e-4;
@@ -61,7 +61,7 @@ pub struct Equilibrium {
 /// least norm. If none exist, the velocities of a motion in which the loads do more work than strength can take up.
 ///
 /// # Errors
-/// A scene that is none, and a solver that reaches neither forces nor a motion: that does not mean that it falls.
+/// An invalid scene, and a solver that reaches neither forces nor a motion: that does not mean that it falls.
 pub fn stands(scene: &Scene) -> Result<Equilibrium, EquilibriumError> {
     let problem = Problem::new(scene)?;
     let none = vec![[0.0; 3]; problem.strengths.len()];
@@ -173,8 +173,8 @@ impl Sequence<'_> {
     ) -> Result<Ended, EquilibriumError> {
         let mut dilatancy = first;
         let mut last: Option<Solved> = None;
-        // With full dilatancy a scene stands at κ if and only if its program has φ ≤ κ, or no least φ: between the
-        // largest κ with which it does not stand and the least with which it does lies the factor.
+        // With full dilatancy a scene stands at κ if and only if its program has φ ≤ κ, or no least φ: the factor lies
+        // between the largest κ with which it does not stand and the least with which it does.
         let mut bracket = [0.0, f64::INFINITY];
         let (mut factors, mut beyond) = (Vec::new(), f64::INFINITY);
         for programs in 1..=MOST {
@@ -213,7 +213,7 @@ impl Sequence<'_> {
             }
             let change = last.as_ref().map_or(f64::INFINITY, |last| (solved.factor - last.factor).abs());
             let excess = self.problem.excess(&solved, strength(solved.factor));
-            // One program of load factors is the whole of the associated one.
+            // With associated flow one program gives the load factor.
             let whole = self.goal == Goal::Load && dilatancy == 1.0;
             let settled = whole || change <= (SETTLED * solved.factor.abs()).max(BEST) && excess <= EXCESS;
             if settled && dilatancy == if self.flow == Flow::Associated { 1.0 } else { 0.0 } {

@@ -10,11 +10,11 @@
 //! multipliers of the cones: the force f on the second body, |t| ≤ C + φ C' + m n,  n ≥ −T
 //! ```
 //!
-//! That v is optimal says E f + w + φ w' = 0, the equilibrium of all bodies, with φ the multiplier of the
-//! normalisation: the largest φ, or, with the signs of its row turned, the least. That q is says f = f̄ + q: the
-//! forces nearest to f̄, with the weight ε. The program has 6 unknowns a body, where the one in the forces has 3 a
-//! corner, and eliminating its cones leaves a matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the
-//! row of n adds nothing: then y = (u_n + ε q_n)/m.
+//! Optimality of v is E f + w + φ w' = 0, the equilibrium of all bodies, with φ the multiplier of the normalisation:
+//! the largest φ or, with the signs of its row turned, the least. Optimality of q is f = f̄ + q: the forces nearest to
+//! f̄, with the weight ε. The program has 6 unknowns a body, where the one in the forces has 3 a corner, and
+//! eliminating its cones leaves a matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the row of n adds
+//! nothing: then y = (u_n + ε q_n)/m.
 
 use super::assembly::{Assembly, Corner};
 use super::error::EquilibriumError;

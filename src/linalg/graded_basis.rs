@@ -10,18 +10,18 @@ use nalgebra::{Matrix3, Vector3};
 /// Square of the sine below which what is left of a normal is rounding.
 pub(crate) const PARALLEL: f64 = 1e-30;
 
-/// Most normals kept from the first pass over the planes for the second: few points have more planes on.
+/// Most normals kept from the first pass for the second: few points have more active planes.
 const MOST_KEPT: usize = 16;
 
-/// The normals of planes that are on, each with the weighted 2w of its plane; times |n|² that is its curvature in the
+/// The normals of the active planes, each with the weighted 2w of its plane; times |n|² this is its curvature in the
 /// sum.
 pub(crate) trait StiffNormals {
     /// Calls `visit` with each normal and weight, in the same order each time.
     fn visit(&self, visit: impl FnMut(Vector3<f64>, f64));
 }
 
-/// Orthonormal axes (columns) of points with so many coordinates, stiffest first. In place of the others there are
-/// zeros, so that a quadratic in these axes has neither slope nor planes across the boundary on which the points lie.
+/// Orthonormal axes (columns) of points with `dimensions` coordinates, stiffest first. The other columns are zeros, so
+/// that a quadratic in these axes has neither slope nor planes across the boundary on which the points lie.
 pub(crate) fn aligned(normals: &impl StiffNormals, dimensions: usize) -> Matrix3<f64> {
     if dimensions == 3 {
         return aligned_in_space(normals);
@@ -101,8 +101,8 @@ pub(crate) fn any_across(n: &Vector3<f64>) -> Vector3<f64> {
     n.cross(&least_axis(n)).normalize()
 }
 
-/// The axis to which a vector is nearest to being at right angles; of equally good ones the last: across a normal in
-/// the plane z = 0 that gives another one in it.
+/// The axis most nearly at right angles to a vector; of equally good ones the last: across a normal in the plane z = 0
+/// that gives another one in it.
 pub(crate) fn least_axis(n: &Vector3<f64>) -> Vector3<f64> {
     let [x, y, z] = [n.x.abs(), n.y.abs(), n.z.abs()];
     if z <= x && z <= y {

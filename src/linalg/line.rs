@@ -1,9 +1,9 @@
 //! The minimum of a convex, piecewise quadratic function of one variable, found from piece to piece.
 //!
 //! The function is Σ w⟨depth + α·rate⟩² plus a quadratic. Its slope is continuous, piecewise linear and grows with α:
-//! from the slope at α = 0 the curvature of each piece leads to its end, where one plane comes on or goes off, until
-//! the slope vanishes. No slope is ever summed up from the planes, where large terms would cancel. All is of 32 digits:
-//! where stiff planes have gone off, what is left of the slope is small beside what it was.
+//! from the slope at α = 0 the curvature of each piece leads to its end, where one plane switches, until the slope
+//! vanishes. No slope is summed from the planes, where large terms would cancel. All numbers have 32 digits: after
+//! stiff planes have become inactive, the slope is small beside its former value.
 
 use super::double_double::DoubleDouble;
 use super::number::Number;
@@ -58,8 +58,8 @@ impl Line {
             return zero;
         }
         self.switches.sort_by(|a, b| a.alpha.rounded().total_cmp(&b.alpha.rounded()));
-        // What planes give that are on until later, and what those give that have come on: sums without a difference,
-        // since a plane may be stiffer by many digits than what is left when it has gone off.
+        // Curvatures of planes active until later, and of planes that have become active, are sums without differences:
+        // a plane may be stiffer by many digits than what remains when it is inactive.
         let mut until_later = vec![zero; self.switches.len() + 1];
         for (i, switch) in self.switches.iter().enumerate().rev() {
             until_later[i] = until_later[i + 1] + if switch.comes_on { zero } else { switch.curvature };
@@ -96,8 +96,8 @@ mod tests {
         line.least().rounded()
     }
 
-    /// ½α² − 3α, a plane that comes on at α = 1 and one that goes off at α = 0.5: slopes at 0, 0.5 and 1 are −3, −1.5
-    /// and −1; beyond, the curvature is 5.
+    /// ½α² − 3α, with one plane active from α = 1 on and one until α = 0.5: slopes at 0, 0.5 and 1 are −3, −1.5 and −1;
+    /// beyond, the curvature is 5.
     #[test]
     fn the_slope_vanishes_at_the_minimum() {
         assert!((least(-3.0, 1.0, &[[-2.0, 2.0, 1.0], [0.5, -1.0, 2.0]]) - 1.2).abs() < 1e-15);
@@ -115,7 +115,7 @@ mod tests {
         assert!((least(-1.0, 1e-6, &[[1e-30, -1e-10, 1e30]]) / 1e6 - 1.0).abs() < 1e-9);
     }
 
-    /// At α = 1 a plane goes off and leaves 1e-24 of the slope: with a curvature of 1e-24 the minimum is at 2.
+    /// A plane active until α = 1 leaves 1e-24 of the slope: with a curvature of 1e-24 the minimum is at 2.
     #[test]
     fn what_a_stiff_plane_leaves_of_the_slope_keeps_its_digits() {
         let mut line = Line::new(-(of(1.0) + of(2e-24)));

@@ -187,8 +187,8 @@ impl<'a, N: Number> DualPath<'a, N> {
         self.after(step, series.lambda, found)
     }
 
-    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a pair that is alike on both sides the terms of the
-    /// mismatch cancel and say nothing about those of the curve.
+    /// Whether the slope a·g_A + b·g_B is zero to rounding. In a symmetric pair the terms of the mismatch cancel and
+    /// say nothing about those of the curve.
     #[inline(always)]
     pub fn is_balanced(&self, found: &Optimum<N>) -> bool {
         let (a, _) = self.problem.weights(found.lambda);

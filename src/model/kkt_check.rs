@@ -28,7 +28,7 @@ pub(crate) struct KktCheck {
     pub pull: f64,
     /// Number of planes that are active after the step, or may be by rounding.
     pub near: f64,
-    /// A lower bound of how far below 0 the depth of every other plane is after the step.
+    /// A lower bound of −depth of every other plane after the step.
     pub clear: f64,
     /// Whether an inactive plane may be on by rounding.
     pub near_inactive: bool,
@@ -45,8 +45,8 @@ pub(crate) enum Change {
     /// A plane that was active by no more than its rounding has a negative multiplier: the model is solved again
     /// without it.
     Leaving,
-    /// A plane that is on by more than rounding has a negative multiplier after the step: the point moves before any
-    /// plane is dropped.
+    /// A plane active by more than rounding has a negative multiplier after the step: the point moves before any plane
+    /// is dropped.
     Pulling,
 }
 
@@ -104,7 +104,7 @@ impl KktCheck {
     /// Whether every active plane pushes with more than a force, for a body of this weight.
     #[inline(always)]
     pub fn pushes_more(&self, body: &Body, weight: f64, force: f64) -> bool {
-        // Without planes ∞ times 0 is not a number: then none fails to.
+        // Without planes, ∞ times 0 is NaN, and the answer is true.
         !(weight * body.plane_curvature() * self.least_push < force)
     }
 

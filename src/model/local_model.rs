@@ -16,8 +16,7 @@ use nalgebra::{Matrix3, Vector3};
 pub(crate) enum Axes {
     /// Those of B.
     OfB,
-    /// Aligned with the stiffest planes, chosen anew at each point where those that are on leave a soft direction; else
-    /// those of B.
+    /// Aligned with the stiffest planes of each point whose active planes leave a soft direction; else those of B.
     Graded,
     /// Of a boundary: its own, as many as a point of it has coordinates.
     OfBoundary(usize),

@@ -1,8 +1,8 @@
 //! The whole of packing: bodies look for their places in rounds, and each takes its place if nobody took it before.
 //!
-//! In a round a few bodies look at once, each on its own, in the pile as it was when the round began; then they take
-//! their places in order. Who finds his taken looks again in the next round. How many look at once does not depend on
-//! the number of threads, so that neither does the packing.
+//! In a round a few bodies look at once, each on its own, in the pile at the start of the round; then they take their
+//! places in order. A body whose place is taken looks again in the next round. How many look at once does not depend on
+//! the number of threads, nor does the packing.
 
 use crate::contact::batch::{CHUNK, in_parallel};
 use crate::packing::container::Container;

@@ -54,7 +54,7 @@ pub(crate) struct Trial<'a> {
     numbers: Vec<u32>,
 }
 
-/// How far a body may move, in bounding radii, until it is looked up anew what is near.
+/// How far a body may move, in bounding radii, before neighbours are looked up again.
 const REACH: f64 = 0.5;
 
 impl<'a> Trial<'a> {

@@ -25,7 +25,7 @@ const MOVES: usize = 300;
 const FIRST: f64 = 0.5;
 const LAST: f64 = 2e-3;
 
-/// What a move that fits does to the steps, and one that does not: one of the first balances four of the second.
+/// Growth of the step by a move that fits, shrinkage by one that does not: one growth balances four shrinkages.
 const GROWTH: f64 = 1.5;
 const SHRINKAGE: f64 = 0.903_602; // 1.5^(-1/4)
 

@@ -34,7 +34,7 @@ struct Measured<'a> {
     inner: f64,
 }
 
-/// Least share by which a body is enlarged while it is packed: as far apart the finished bodies are, so that no other
+/// Least share by which a body is enlarged while it is packed: the finished bodies are as far apart, so that no other
 /// rounding of their planes makes them overlap.
 const LEAST_ENLARGEMENT: f64 = 1e-6;
 

@@ -279,7 +279,7 @@ fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<V
                     continue;
                 }
                 let slack = SLACK * corner.norm();
-                // Of planes through one line rounding may leave an inverse; what it gives lies on none of them.
+                // Planes through one line may have an inverse by rounding; its point lies on none of them.
                 let met = [i, j, k].iter().all(|&face| (all[face].0.dot(&corner) - all[face].1).abs() <= slack);
                 let kept = met && all.iter().all(|(n, h)| n.dot(&corner) <= h + slack);
                 if kept && !corners.iter().any(|c| (c - corner).norm() <= slack) {

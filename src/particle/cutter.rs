@@ -1,6 +1,6 @@
 //! What a plane takes away from a polyhedron, and the edges that it cuts.
 //!
-//! A cutter is lent from one cut to the next: it keeps its room, so that cutting allocates nothing.
+//! A cutter is reused from cut to cut: it keeps its buffers, so that cutting allocates nothing.
 
 use crate::particle::polyhedron::Corner;
 use nalgebra::Vector3;
@@ -27,7 +27,7 @@ pub(crate) struct Cutter {
     marks: Vec<u32>,
     stamp: u32,
     pub(super) edges: Vec<Edge>,
-    /// For each of these edges the one by which its left face comes back, and the one whose left face comes back by it.
+    /// For each of these edges the one whose right face is its left face and the one whose left face is its right face.
     pub(super) following: Vec<u32>,
     pub(super) preceding: Vec<u32>,
     /// Heights of the corners above the plane, and the places that they get in a part: for whoever cuts.
@@ -113,7 +113,7 @@ impl Cutter {
         self.stamp
     }
 
-    /// Finds for each edge the one by which its left face comes back; whether one walk along them visits all.
+    /// Finds for each edge the one whose right face is its left face; whether one walk along them visits all.
     fn lies_around(&mut self) -> bool {
         let Self { edges, following, preceding, by_right, .. } = self;
         let count = edges.len();

@@ -27,7 +27,7 @@ pub(crate) struct Patch {
     cuts: [f64; 2],
 }
 
-/// So many faces are followed in any case: they are fewer than the cells that most bodies need.
+/// Most faces that are always followed: fewer than the cells that most bodies need.
 const FEW: usize = 1_000;
 
 impl Patch {

@@ -24,9 +24,8 @@ const CUBE: f64 = 1e10;
 /// corner are not taken to cut each other off; what is overlooked is covered by the dual bound.
 const UNDECIDED: f64 = 1e-12;
 
-/// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, of
-/// which
-/// |n|₁ ≤ √3 makes 3.5ε; as much for the rounding of n when it was brought to unit length; one more for h and the sum.
+/// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, with
+/// |n|₁ ≤ √3 together 3.5ε; as much for the normalisation of n; one more for h and the sum.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// Largest |ρ|₁ at which the half-spaces count as bounded. The half edge is then right to 1e-6, and two planes that
@@ -65,7 +64,7 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Opt
         let before = faces.len();
         // A face further off than the cube's corners plays no part: not in the scale either.
         if half < TINY * scale {
-            // In those units `half` may be too small for a number; TINY is not.
+            // In those units `half` may underflow; TINY does not.
             faces.retain(|(_, h)| *h < (2.0 * half).max(TINY * scale));
         }
         if faces.len() == before {
@@ -142,7 +141,7 @@ fn maximise_on(
     let larger = |i: &usize, j: &usize| plane.n[*i].abs().total_cmp(&plane.n[*j].abs());
     let gone = (0..dimensions).max_by(larger).unwrap_or(0);
     let pivot = plane.n[gone];
-    // Without the coordinate: the others move up. A difference that is nothing but rounding is none.
+    // Without the coordinate: the others move up. A difference of rounding only counts as 0.
     let reduced = |n: &[f64; 3]| {
         let (ratio, mut left, mut is_parallel) = (n[gone] / pivot, [0.0; 3], true);
         for axis in (0..dimensions).filter(|axis| *axis != gone) {

@@ -14,7 +14,7 @@
 //!   convexity says more: g lies below its bilinear interpolant between neighbouring points, and above its tangents
 //!   there.
 //!
-//! The second part does not ask what the points have seen, so that no feature is overlooked between them. The cell with
+//! The second part does not depend on what the points sample, so that no feature between them is missed. The cell with
 //! the largest bound is halved in the direction that has the larger part of it, until the bounds of all cells add up to
 //! less than the tolerance.
 
@@ -58,7 +58,7 @@ const ALIKE: f64 = 4.0;
 /// Least share of the tolerance that is left to the cells, where rounding takes more than all of it.
 pub(crate) const LEAST_PART: f64 = 0.1;
 
-/// How far the units in which errors are measured may be off, as a factor, and how often they are found anew.
+/// Factor by which the units of the errors may be off, and how often these units are computed again.
 pub(crate) const SAME_UNITS: f64 = 1.05;
 pub(crate) const MOST_UNITS: usize = 8;
 

@@ -1,5 +1,5 @@
 //! Which planes are neighbours on the polyhedron that holds a particle. From neighbour to neighbour a farthest plane is
-//! found without a look at most of the others.
+//! found without visiting most of the others.
 
 use crate::particle::bounding_volumes::Bounds;
 use crate::particle::cutter::Cutter;

@@ -64,8 +64,8 @@ impl Particle {
         Ok(Self::of(shape))
     }
 
-    /// What stands in place of the second particle where the first one touches a plane, a line or a point of a
-    /// boundary, which leave it so many dimensions: S = 0 on all of it.
+    /// The second particle where the first one touches a plane, a line or a point of a boundary, of 2, 1 or 0
+    /// dimensions: S = 0 on all of it.
     pub(crate) fn boundary(dimensions: usize) -> &'static Self {
         static BOUNDARIES: LazyLock<[Particle; 3]> =
             LazyLock::new(|| [0, 1, 2].map(|d| Particle::of(Shape::boundary(d))));
@@ -79,8 +79,8 @@ impl Particle {
     }
 
     fn of(shape: Shape) -> Self {
-        // From a random number on, so that a memory that was saved in spite of its documentation is of no particle of
-        // another process.
+        // From a random number on: a pair state saved against its documentation then matches no particle of another
+        // process.
         static LAST: LazyLock<AtomicU64> =
             LazyLock::new(|| AtomicU64::new(RandomState::new().build_hasher().finish() >> 13));
         Self { shape, serial: 1 + LAST.fetch_add(1, Ordering::Relaxed) }

@@ -7,8 +7,8 @@ use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 use std::ops::Range;
 
-/// Most planes of a particle that need no bounds, and of a cluster that is not divided: about as many as two bounds
-/// cost to evaluate.
+/// Most planes of a particle without bounds, and of an undivided cluster: evaluating them costs about as much as two
+/// bounds.
 const MOST: usize = 12;
 
 /// Relative margin of a bound, 45ε.

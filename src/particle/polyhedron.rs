@@ -76,8 +76,8 @@ impl Polyhedron {
         Self { corners: (0..8).map(corner).collect(), least_cut, start: 0 }
     }
 
-    /// Cuts off what lies beyond n·x = `height`, with n of unit length; the new face is `number`. Whether it did: not
-    /// where that is less than the least cut, or where rounding leaves no closed surface.
+    /// Cuts off what lies beyond n·x = `height`, with n of unit length; the new face is `number`. False, without a cut,
+    /// if that is less than the least cut or rounding leaves no closed surface.
     pub fn cut(&mut self, cutter: &mut Cutter, number: usize, n: &Vector3<f64>, height: f64) -> bool {
         let highest = cutter.highest(&self.corners, n, self.start, self.least_cut);
         let excess = |corners: &[Corner], i: u32| n.dot(&corners[i as usize].at) - height;
@@ -159,7 +159,7 @@ impl Polyhedron {
             }
         }
         let first = made.len() as u32;
-        // Of edges that are cut, until they are given their new corners, wrong ones.
+        // Wrong for edges that are cut, until these get their new corners.
         made.iter_mut().for_each(|corner| corner.next = corner.next.map(|next| places[next as usize]));
         for (i, edge) in cutter.edges.iter().enumerate() {
             let kept = places[edge.kept as usize];

@@ -19,7 +19,7 @@ pub(crate) const RULE: [(f64, f64, f64); POINTS] = [
 /// of ∫|K|, with K the second Peano kernel, whose integral is 0.
 pub(crate) const OF_JUMP: f64 = 6.198e-4;
 
-/// What the difference of the rules is at most for such a function, over that: again half of ∫|K|, of the difference.
+/// Bound on the difference of the rules for the same functions, over that: half of ∫|K| of the difference.
 pub(crate) const DIFFERENCE_OF_JUMP: f64 = 2.556e-3 / OF_JUMP;
 
 /// Limits of the share.

@@ -1,8 +1,8 @@
 //! The distance along a ray from a point inside to the surface: exact, since S is piecewise quadratic on a line.
 //!
 //! Newton's method with the quadratic at the current point as the model: its root is the answer once the active planes
-//! are those of the root. Before that the root may be passed on either side, and a bracket replaces a step that leaves
-//! it by the Newton step from the outer end, which does not overshoot because S is convex.
+//! are those of the root. Before that an iterate may pass the root on either side; a step that leaves the bracket is
+//! replaced by the Newton step from its outer end, which does not overshoot as S is convex.
 //!
 //! Stop criteria compare steps with an estimate of the rounding of a point on the ray; they are no error bounds.
 

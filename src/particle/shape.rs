@@ -217,9 +217,9 @@ impl Shape {
         largest
     }
 
-    /// An excess that no neighbour exceeds, and its plane, sought among the planes where the largest one most likely is
-    /// and from there: seldom less than the largest of all, which takes several times as long to find. −∞ when there
-    /// are no planes.
+    /// An excess that no neighbour exceeds, and its plane: the largest of the most likely cluster, then uphill over
+    /// neighbours. It is seldom less than the largest of all, which takes several times as long to find. −∞ without
+    /// planes.
     #[inline]
     pub(crate) fn likely_excess(&self, y: &Vector3<f64>) -> (f64, usize) {
         if self.clusters.is_single() {
@@ -318,8 +318,8 @@ fn depth_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64, shadow
     1.0 / (plane_weight * length * excess + sphere_weight * height)
 }
 
-/// s is the length of the vector of all √w⟨n_i·x − d_i⟩ and √m x, each of which changes by no more than without the
-/// brackets: so |∇s|² is at most w times the largest eigenvalue of Σ n_i n_iᵀ, and m.
+/// s is the length of the vector of all √w⟨n_i·x − d_i⟩ and √m x, each of which changes no faster than without the
+/// brackets: so |∇s|² is at most w times the largest eigenvalue of Σ n_i n_iᵀ, plus m.
 fn slope_length(rows: &[[f64; 4]], plane_weight: f64, sphere_weight: f64) -> f64 {
     let mut squares = Symmetric::default();
     for [a, b, c, _] in rows.iter().filter(|_| plane_weight > 0.0) {

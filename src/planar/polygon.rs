@@ -22,7 +22,7 @@ impl Polygon {
             return Err(ParticleError::VertexNotFinite { index, x, y });
         }
         let flat = ParticleError::FlatVertices(points.len());
-        // From a point among them: far from the origin the differences are what is known well.
+        // From a point among them: far from the origin only differences are precise.
         let first = Vector2::from(*points.first().ok_or(flat)?);
         let mut sorted: Vec<Vector2<f64>> = points.iter().map(|&point| Vector2::from(point) - first).collect();
         sorted.sort_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)));

@@ -33,8 +33,8 @@ pub struct BlockFace {
     pub plane: Plane,
     /// Area.
     pub area: f64,
-    /// The part of it that lies in the true extent of its joint, a disc or polygon: what else of it was rock. All of it
-    /// where the joint has no end, 0 on other planes.
+    /// The part of it within the true extent of its joint, a disc or polygon; the rest was rock. All of it where the
+    /// joint has no end, 0 on other planes.
     pub jointed_area: f64,
     /// Its corners among those of the block.
     first: u32,

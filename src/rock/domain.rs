@@ -49,7 +49,7 @@ pub(super) fn faces(
     Ok(planes)
 }
 
-/// Unit normals and distances from the origin; the index of a plane that is none.
+/// Unit normals and distances from the origin; the index of an invalid plane.
 pub(crate) fn unit_planes(planes: &[Plane]) -> Result<Vec<Oriented>, usize> {
     let unit = |(i, plane): (usize, &Plane)| {
         let normal = direction(&plane.normal).ok_or(i)?;

@@ -49,7 +49,7 @@ pub enum RockError {
     /// The planes of the domain leave a side open.
     #[error("the domain is open: its planes leave a direction in which it never ends")]
     Open,
-    /// More blocks than are allowed would be made: told before the first joint cuts.
+    /// More blocks than allowed would be made: reported before the first joint cuts.
     #[error(
         "some {expected:.0} blocks or more are expected, more than most_blocks = {most}: fewer joints, larger spacings or a larger most_blocks"
     )]

@@ -7,8 +7,7 @@ use std::ops::Range;
 /// A part, and the region that it lies in.
 pub(super) type Placed = (Part, Option<usize>);
 
-/// What lies in each region, in the first one of several, and what is left beside them. `sizes`: how many planes each
-/// region has.
+/// What lies in each region (the first, where several overlap), and the rest. `sizes`: how many planes each region has.
 pub(super) fn parted(part: &Part, sizes: &[usize], cuts: &Cuts<'_>, bench: &mut Workbench) -> Vec<Placed> {
     let mut parts = vec![(part.clone(), None)];
     let mut first = cuts.first_of_regions();

@@ -16,7 +16,7 @@ const CHUNKS: usize = 16;
 /// Most parts of a chunk.
 const LONGEST_CHUNK: usize = 256;
 
-/// Pieces that a thread makes before it tells the others.
+/// Pieces that a thread makes before it reports them.
 const TOLD: usize = 256;
 
 /// What was made of some parts that follow each other.
@@ -50,8 +50,8 @@ struct Pending {
     joint: usize,
 }
 
-/// What the joints of a range make of the parts. `finish` appends to the results what it makes of a piece, whose number
-/// in its chunk it is told. An error if there are more pieces than `most`.
+/// What the joints of a range make of the parts. `finish` appends to the results what it makes of a piece, given its
+/// number in the chunk. An error if there are more pieces than `most`.
 pub(super) fn cut<T: Send>(
     threads: usize,
     parts: &[Part],
@@ -78,8 +78,8 @@ pub(super) fn cut<T: Send>(
     Ok(Round { chunks, missing, left_out })
 }
 
-/// What the joints make of some parts; `count` has the pieces that all threads have told of. It ends early where these
-/// are more than the limit.
+/// What the joints make of some parts; `count` has the pieces that all threads have reported. It ends early if these
+/// exceed the limit.
 fn chunk<T>(
     parts: &[Part],
     cuts: &Cuts<'_>,
@@ -90,7 +90,7 @@ fn chunk<T>(
     let has_cut = vec![false; joints.len()];
     let mut made = Chunk { results: Vec::new(), pieces: 0, has_cut, left_out: LeftOut::default() };
     let (mut bench, mut piece, mut untold) = (Workbench::default(), Pending::default(), 0);
-    // Those that wait, and behind them room of former ones.
+    // Waiting pieces, followed by buffers of former ones.
     let (mut stack, mut waiting): (Vec<Pending>, usize) = (Vec::new(), 0);
     for part in parts {
         piece.part.copy_from(part);

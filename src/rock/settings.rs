@@ -12,7 +12,7 @@ pub struct SliceSettings {
     pub least_thickness: f64,
     /// Or if the largest ball in a part would have a smaller diameter than this, the paper's limit on size.
     pub least_width: f64,
-    /// Or if its extent along x, y or z would be more than so many times that diameter.
+    /// Or if its extent along x, y or z would exceed this multiple of that diameter.
     pub largest_aspect: f64,
     /// More blocks than this are an error: where none of the limits above is set, it is told before the first joint
     /// cuts if more are expected.

@@ -44,8 +44,8 @@ pub struct RockMass {
 /// meets in two; a disc or polygon cuts all of a block that it reaches, as in the paper.
 ///
 /// # Errors
-/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, a limit that is
-/// none, more blocks than allowed.
+/// A domain that is empty or open, a plane or joint without a normal or whose numbers are not finite, an invalid limit,
+/// more blocks than allowed.
 pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Result<RockMass, RockError> {
     slice_with_regions(domain, joints, &[], settings, |_, _| true)
 }
@@ -60,7 +60,7 @@ pub fn slice(domain: &[Plane], joints: &[Joint], settings: &SliceSettings) -> Re
 /// the regions still do.
 ///
 /// # Errors
-/// As of [`slice()`], and a plane of a region that is none.
+/// As of [`slice()`], and an invalid plane of a region.
 pub fn slice_with_regions(
     domain: &[Plane],
     joints: &[Joint],

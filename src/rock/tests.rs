@@ -122,7 +122,7 @@ fn sets_through_lines_and_corners_make_a_grid() {
     assert!(mass.blocks.len() == 20 && (volume(&mass) - 8.0).abs() < 1e-12, "{}", mass.blocks.len());
 }
 
-/// Planes through one point, and copies of them that are off by less and less: no block is of no volume, and together
+/// Planes through one point, and copies of them that are off by less and less: every block has a volume, and together
 /// they are the domain.
 #[test]
 fn planes_that_all_but_coincide_lose_no_volume() {

@@ -21,10 +21,10 @@ use crate::particle::plane::Plane;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
-/// The repetition ends when the centre is the centroid to this share of the size, found with fewer digits, which takes
-/// far less time, or, of bodies so flat or long that these digits do not say as much, when it comes no nearer and is
-/// the centroid as far as they tell. A last step with all digits follows; the shape does not change by it, but in the
-/// product of this share and k.
+/// The repetition ends when the centre is the centroid to this share of the size, with fewer digits, which takes far
+/// less time. For bodies too flat or long for these digits, it ends when the centre comes no nearer and is the centroid
+/// to their precision. A last step with all digits follows; it changes the shape only by the product of this share and
+/// k.
 const CENTRED: f64 = 1e-5;
 const ROUGHLY: f64 = 1e-4;
 const MOST_STEPS: usize = 50;
@@ -183,8 +183,8 @@ impl Shape {
     }
 }
 
-/// How far the centroid may be off along each axis: its error is a share of the radius of gyration √(∫x²dV/V); none
-/// where nothing is known.
+/// How far the centroid may be off along each axis: its error is a share of the radius of gyration √(∫x²dV/V); 0 where
+/// nothing is known.
 fn known(mass: &MassProperties) -> Vector3<f64> {
     let error = if mass.error.is_finite() { mass.error } else { 0.0 };
     let all = 0.5 * mass.inertia.trace();

@@ -11,8 +11,8 @@ use crate::particle::volume::{self, Enclosed};
 use crate::rock::{enclosed, unit_planes};
 use nalgebra::{Matrix3, Vector3};
 
-/// A centroid this close to the origin, as a share of the distance of the farthest corner, is there: sums over the
-/// faces are rounded by a few units.
+/// A centroid nearer to the origin than this share of the farthest corner's distance is set to it: sums over the faces
+/// are rounded by a few units.
 const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 
 /// Planes, corners and centroid are about `origin`, so that their digits do not depend on how far away the body is.

@@ -36,8 +36,8 @@ pub(crate) enum SolveError {
     ConeProgram(#[from] ConeProgramError),
 }
 
-/// A solution, with the quadratics that it is the optimum of or, of other solvers, those at its point. They stay where
-/// the caller has them: copying takes a twentieth of a call from memory.
+/// A solution, with the quadratics whose optimum it is or, from other solvers, those at its point. The quadratics are
+/// borrowed: copying costs a twentieth of a call from memory.
 pub(crate) struct Solved<'m> {
     pub solution: Solution,
     pub model: &'m LocalModel,
@@ -53,7 +53,7 @@ pub(crate) struct Call<'a> {
     pub flags: Flags,
     /// Who answers.
     pub back_end: BackEnd,
-    /// Whether extended precision is asked for whatever doubles say.
+    /// Whether extended precision is always required.
     pub precise: bool,
 }
 
@@ -75,12 +75,12 @@ impl<'a> Call<'a> {
         self.cold_or_apart().0
     }
 
-    /// The same, with the planes that prove the bodies apart if they were found on the way.
+    /// The same, with the planes that prove the pair separated, if they were found.
     pub fn cold_or_apart(&self) -> Guess {
         initial_guess::cold(self.pair, self.bodies())
     }
 
-    /// Whether a start from nothing is as good as one from where bodies were apart.
+    /// Whether a cold start is as good as one from where the pair was separated.
     pub fn is_sharp(&self) -> bool {
         initial_guess::is_sharp(self.bodies())
     }
@@ -132,7 +132,7 @@ impl<'a> Call<'a> {
         Break(solution)
     }
 
-    /// From a first step that does not settle it, if there is one.
+    /// Continues where the first step, if any, did not suffice.
     #[inline(never)]
     fn go_on(
         &mut self,
@@ -181,7 +181,7 @@ impl<'a> Call<'a> {
 
     #[cold]
     fn extended(&mut self, goal: &Goal, first: Solution, model: &mut LocalModel) -> Result<Solution, SolveError> {
-        // Where Newton's method ended without a solution may be anywhere, and so may what it began with from memory.
+        // Without a solution, Newton's last point may be anywhere, and so may the remembered start.
         let known = first.ending != Ending::Unsettled;
         let start = if known { first.start() } else { self.cold() };
         let solution = extended::solve(self.pair, self.bodies(), goal, &start);

@@ -44,7 +44,7 @@ impl Call<'_> {
         if let Some(both) = self.both(lambdas, model, |_| true) {
             return Ok(Some(both));
         }
-        // A constraint that cannot be told from a slack one says as little as one that is.
+        // A constraint that may be slack is treated as a slack one.
         let point = |call: &mut Self, problem| match call.closest_point(problem, Some(midway)) {
             Err(SolveError::Undecided { .. }) => Ok(None),
             found => found,
@@ -59,7 +59,7 @@ impl Call<'_> {
     }
 
     /// P1 and P2 from the current quadratics and the remembered factors, where one step is enough for both and either
-    /// scale tells that the particles overlap: midway is then needed neither for that nor as a start.
+    /// scale shows that the particles overlap: midway is then needed neither for that nor as a start.
     #[inline(never)]
     pub fn closest_from_memory(&mut self, last: &Remembered, model: &LocalModel) -> Option<[CertifiedPoint; 2]> {
         let [of_p1, of_p2] = from_between([model.q_a.expansion, model.q_b.expansion], last.lambda);
@@ -92,8 +92,8 @@ impl Call<'_> {
         Some(points)
     }
 
-    /// One of the two points, or `None` where its constraint is slack: the optimum is then the minimum of the other
-    /// particle, for k > 0 its centre, for k = 0 anywhere in its core, and no contact point. Midway has no such case.
+    /// One of the two points, or `None` where its constraint is slack: the optimum is then the other particle's minimum
+    /// (for k > 0 its centre, for k = 0 any point of its core), not a contact point. Midway has no constraint.
     #[inline(never)]
     pub fn closest_point(
         &mut self,
@@ -116,7 +116,7 @@ impl Call<'_> {
         if free.sphericity() > 0.0 || !found.scale.may_be_zero() {
             return Ok(Some(found));
         }
-        // Only a core has s = 0; where the bounds reach to 1, they do not tell.
+        // Only in a core is s = 0; bounds that reach 1 do not decide.
         let Scale { low, high, .. } = found.scale;
         if high < 1.0 { Ok(None) } else { Err(SolveError::Undecided { low, high }) }
     }
@@ -129,8 +129,8 @@ impl Call<'_> {
         }
     }
 
-    /// Flags points that are free to move along flat faces, so that the way from one to the other has a part along them
-    /// that the regularisation has chosen.
+    /// Flags points that are free to move along flat faces: the part of P1 − P2 along the faces then depends on the
+    /// regularisation.
     pub fn flag_free(&mut self, points: &[CertifiedPoint; 2]) {
         let bodies = self.bodies();
         if !bodies.iter().any(|body| body.is_plain()) {
@@ -145,15 +145,13 @@ impl Call<'_> {
     }
 }
 
-/// Part of the way from one point to the other that has to lie along the faces for it to be longer by more than
-/// rounding.
+/// Share of P1 − P2 along the faces above which P1 − P2 is longer by more than rounding.
 const ALONG: f64 = 1e-6;
 
 /// Rounding of a gradient, relative.
 const OF_GRADIENT: f64 = 32.0 * f64::EPSILON;
 
-/// Whether the way between both points has a part along the level surfaces on which no gradient changes but by the
-/// regularisation.
+/// Whether P1 − P2 has a part along the level surfaces on which gradients change by the regularisation only.
 fn is_free(bodies: [&Body; 2], [p1, p2]: &[CertifiedPoint; 2]) -> bool {
     let (normal, way) = (p1.gradients[0] / p1.gradient_norms[0], p1.x - p2.x);
     let along = way - way.dot(&normal) * normal;
@@ -198,8 +196,8 @@ fn from_between([value_a, value_b]: [f64; 2], lambda: f64) -> [f64; 2] {
     [lambda / (s_b + (s_a - 1.0) / lambda), lambda * (s_a + lambda * (s_b - 1.0))]
 }
 
-/// Whether the particles overlap, by the scale that tells it best: s_A at P2 and s_B at P1 lie on the same side of 1,
-/// but that of a large body lies nearer to it.
+/// Whether the particles overlap, by the scale that shows it best: s_A at P2 and s_B at P1 lie on the same side of 1,
+/// but that of a large body lies nearer to 1.
 pub(crate) fn is_overlap([p1, p2]: &[CertifiedPoint; 2]) -> bool {
     let from_1 = |point: &CertifiedPoint| (point.scale.s - 1.0) / point.scale.gap;
     let (of_p1, of_p2) = (from_1(p1), from_1(p2));
@@ -212,7 +210,7 @@ pub(crate) fn seen_from(midway: Remembered, values: [f64; 2], [p1, p2]: &[Certif
     Remembered { closest: [p1.lambda / of_p1, p2.lambda / of_p2], ..midway }
 }
 
-/// What to remember of P1 and P2 alone of a pair that overlaps: a place between them and a λ that come near those of
+/// What to remember of an overlapping pair from P1 and P2 alone: a point between them and a λ, both near those of
 /// midway.
 pub(crate) fn midway_between(points: &[CertifiedPoint; 2]) -> Remembered {
     let [p1, p2] = points;

@@ -32,8 +32,8 @@ use nalgebra::{Matrix3, Vector3};
 const MOST_WEIGHTS: u32 = 60;
 const MOST_STEPS: u32 = 100;
 
-/// Radii of the smaller particle about the start within which planes are gathered first; a solution farther away is
-/// sought again about itself.
+/// Reach of the first planes about the start, in radii of the smaller particle; a solution farther away is solved again
+/// about itself.
 const FIRST_REACH: f64 = 0.05;
 
 /// Factor by which λ moves while only one end of its bracket is known, at most.
@@ -58,7 +58,7 @@ struct Extended<'a> {
 
 /// Both quadratics at x₀ + δ in graded axes.
 struct WideModel {
-    /// How planes count there of which the depth cannot be told from 0.
+    /// How planes count whose depth is 0 to rounding.
     undecided: Undecided,
     axes: Matrix3<f64>,
     sides: [WideQuadratic; 2],
@@ -86,8 +86,8 @@ impl SafeguardedBracket {
         Self { ends: Bracket { low: 0.0, high: f64::INFINITY }, slow: 0 }
     }
 
-    /// The next λ after one whose minimum has the side that grows with λ too large or too small, and whose dual path
-    /// leads to `wanted`; `None` where the bracket has no double inside.
+    /// The next λ. At the last one the side that grows with λ was too large or too small, and the dual path leads to
+    /// `wanted`. `None` where the bracket has no double inside.
     fn next(&mut self, lambda: f64, too_large: bool, wanted: DoubleDouble) -> Option<DoubleDouble> {
         let width = (self.ends.high / self.ends.low).ln();
         self.ends.narrow(lambda, too_large);
@@ -197,8 +197,8 @@ impl Extended<'_> {
         found
     }
 
-    /// Whether the point is in the held body and in the core of the free one, k = 0, where S is no more than what the
-    /// regularisation may add: the least S is then 0, and the point where the regularised S is least says no more.
+    /// Whether the point lies in the held body and in the core of the free one (k = 0), where S is at most the
+    /// regularisation. The minimum of S is then 0, and the minimiser of the regularised S adds nothing.
     fn is_slack(&self, model: &WideModel) -> bool {
         let Some((held, free)) = self.problem.held() else { return false };
         let [value_of_held, value] = [held, free].map(|i| model.sides[i].value.rounded());
@@ -272,7 +272,7 @@ impl Extended<'_> {
             line.least()
         };
         let alpha = least(&self.bodies);
-        // Planes that come on farther away shorten the step.
+        // Planes farther away may shorten the step.
         let reach = rounded(delta).norm() + alpha.rounded() * rounded(v).norm();
         if self.bodies.iter().all(|body| body.covers(reach)) {
             return alpha;
@@ -345,9 +345,9 @@ impl Extended<'_> {
         }
     }
 
-    /// The merit of the point, or of one on the way to the centre of the body that it should be in and is not. That
-    /// body's S is convex: a share of the way makes up for its rounding, on which the other one's S rises by at most
-    /// its slope and curvature.
+    /// The merit of the point or, if it lies outside the held body, of one towards that body's centre. S of that body
+    /// is convex: a share of the way covers its rounding, along which the other S rises by at most its slope and
+    /// curvature.
     fn upper(&mut self, delta: &Wide, values: &[WideValue; 2]) -> DoubleDouble {
         let Some((held, free)) = self.problem.held() else { return values[0].value.larger(values[1].value) };
         let one = DoubleDouble::from(1.0);
@@ -432,7 +432,7 @@ impl WideModel {
     }
 }
 
-/// The planes of both bodies that are on.
+/// The active planes of both bodies.
 struct ActiveNormals<'a> {
     bodies: &'a [ExtendedBody<'a>; 2],
     delta: &'a Wide,

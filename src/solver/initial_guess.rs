@@ -15,7 +15,7 @@
 //! closed form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
 //! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
 //!
-//! Whatever led to them, the same planes may prove the bodies apart ([`Hull::proof`]).
+//! However found, these planes may prove the pair separated ([`Hull::proof`]).
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
@@ -33,7 +33,7 @@ const MOST_TRIALS: usize = 24;
 /// clusters out.
 const MOST_FOLLOWED: usize = 32;
 
-/// Planes that share a place of the surface, above which the quadratics there tell more than the planes one by one.
+/// Planes per place of the surface above which the quadratics there are a better guide than single planes.
 /// With r/size = 0.05, bodies of 40 planes (1.4) take as many instructions either way, of 50 planes (1.75) 44 % fewer
 /// without the linear program, of 20 planes (0.7) 50 % more (docs/design_notes.md).
 const SMOOTH: f64 = 1.5;
@@ -69,8 +69,8 @@ pub(crate) fn is_sharp([a, b]: [&Body; 2]) -> bool {
     !is_smooth(a) && !is_smooth(b)
 }
 
-/// Whether so many planes share each place of the surface that the sharp polyhedron is a poor start. On a ball, a plane
-/// is on within a cap as high as the rounding, r/√(1−k), which is the share r/√(1−k)/(2·radius) of the ball.
+/// Whether too many planes are active together for the sharp polyhedron to be a good start. On a ball a plane is active
+/// within a cap of height r/√(1−k), which is the share r/√(1−k)/(2·radius) of the surface.
 fn is_smooth(body: &Body) -> bool {
     let (particle, bounds) = (body.particle, &body.particle.bounds);
     let together = particle.len() as f64 * bounds.face_reach / (2.0 * bounds.radius * bounds.longest_normal);
@@ -155,7 +155,7 @@ impl<'a> Envelope<'a> {
         }
     }
 
-    /// F where the search begins, and the plane that it is that of.
+    /// F at the start of the search, and the plane that attains it.
     fn first(&mut self, x: &Vector3<f64>) -> (f64, Which) {
         if !self.few {
             return self.higher(self.bodies.map(|body| body.likely_excess(x)));
@@ -173,12 +173,12 @@ impl<'a> Envelope<'a> {
         highest
     }
 
-    /// F, and the plane that it is that of, by a walk over neighbours from the last planes.
+    /// F, and the plane that attains it, by ascent over neighbours from the last planes.
     fn highest(&mut self, x: &Vector3<f64>) -> (f64, Which) {
         self.higher([0, 1].map(|i| self.bodies[i].particle.climbed(&self.bodies[i].local(x), self.last[i])))
     }
 
-    /// That of the higher one of a plane of A and one of B, given by n·x − d.
+    /// The larger √w·(n·x − d) of a plane of A and one of B, and its plane.
     fn higher(&mut self, [(of_a, place_a), (of_b, place_b)]: [(f64, usize); 2]) -> (f64, Which) {
         self.last = [place_a, place_b];
         let (of_a, of_b) = (self.roots[0] * of_a, self.roots[1] * of_b);
@@ -189,8 +189,8 @@ impl<'a> Envelope<'a> {
         Face { gradient: self.roots[of] * self.bodies[of].normal(place), of, place }
     }
 
-    /// How far F, now `level`, falls by `rate` a unit of way against y, and which plane takes over there; as far as
-    /// F = 0 if none does. x has come all the way that the last call gave.
+    /// The step along −y, in units of y, on which F falls from `level` at `rate`, and the plane that takes over there;
+    /// if none does, the step to F = 0. x is where the last step led.
     fn next(&mut self, x: &Vector3<f64>, y: &Vector3<f64>, level: f64, rate: f64) -> (f64, Option<Which>) {
         if self.few { self.next_of_few(y, level, rate) } else { self.next_of_many(x, y, level, rate) }
     }
@@ -201,7 +201,7 @@ impl<'a> Envelope<'a> {
             let y = root * body.turn(y);
             let known = self.heights[i].iter_mut().zip(&mut self.falls[i]);
             for (place, (n, (height, fall))) in body.particle.normals().zip(known).enumerate() {
-                // Followed on its way, not looked up anew: a start need not be perfect.
+                // Updated, not evaluated again: a start need not be perfect.
                 *height -= self.way * *fall;
                 *fall = n.dot(&y);
                 let (below, closing) = (level - *height, rate - *fall);
@@ -244,8 +244,8 @@ impl<'a> Envelope<'a> {
     }
 }
 
-/// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` of one particle's planes alone: its own centre is
-/// meant, not a contact.
+/// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` if all planes are of one particle: they give its
+/// centre, no contact.
 fn balanced(hull: &Hull, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
     let mut squares = [0.0; 2];
     (0..hull.count).for_each(|i| squares[hull.faces[i].of] += hull.shares[i] * hull.shares[i]);

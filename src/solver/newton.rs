@@ -73,7 +73,7 @@ struct Quality {
     precise: bool,
     /// As near as rounding lets any bounds come.
     rounded: bool,
-    /// They leave little open, however large what rounding leaves.
+    /// They are narrow, even where rounding is large.
     telling: bool,
 }
 
@@ -139,8 +139,7 @@ struct Best {
 }
 
 impl Search<'_> {
-    /// Goes on to another model; or ends with an answer, or without one, where no step can be made or no further one is
-    /// worth it.
+    /// Continues with another model, or ends: with an answer, or without one if no step is possible or worthwhile.
     fn iterate(&mut self) -> ControlFlow<Option<Solution>> {
         self.iterations += 1;
         self.shorten_if_failed();
@@ -175,8 +174,8 @@ impl Search<'_> {
         }
     }
 
-    /// The solution that the optimum of the model is, if it is one and good enough. One that is not is kept if it is
-    /// the best so far: optimal, but over a long step; the same from nearby is sharper.
+    /// The optimum of the model as a solution, if it is optimal and good enough. If only optimal, it is kept if it is
+    /// the best so far: its step is long, and the same optimum from nearby is sharper.
     fn answer(&mut self, step: &Step) -> Option<Solution> {
         let lower = self.goal.problem.dual(step.optimum.values.0, step.optimum.values.1, self.lambda);
         let separating = self.goal.stop_when_separated && lower > 1.0 && step.change != Change::Pulling;
@@ -285,8 +284,8 @@ mod tests {
         Goal { problem, tolerance: 1e-12, stop_when_separated: false }
     }
 
-    /// From where other planes are on: at the end the forces balance, both S are equal, and no point nearby has a
-    /// lesser larger one.
+    /// Other planes are active at the start. At the end the forces balance, both S are equal, and their maximum is
+    /// least nearby.
     #[test]
     fn the_solution_is_the_optimum_by_its_definition() {
         let cube = Particle::cube(0.4, 0.1, 0.02, 0.9);

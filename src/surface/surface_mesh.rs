@@ -45,9 +45,9 @@ pub enum MeshError {
 /// Least tolerance: a sphere has about a million triangles then.
 const FINEST: f64 = 1e-5;
 
-/// Most vertices times the tolerance, and beside that: ten times as many as a sphere has, which needs more than other
-/// bodies of its radius. Only rounding asks for more, as where normals are of very different lengths; the error of the
-/// mesh then says so.
+/// Most vertices times the tolerance, and besides: ten times those of a sphere, which needs more than other bodies of
+/// its radius. Only rounding needs more, as with normals of very different lengths; the error of the mesh then shows
+/// it.
 const MOST_VERTICES: f64 = 50.0;
 const FEW_VERTICES: f64 = 1_000.0;
 

@@ -19,8 +19,7 @@ pub(super) struct Rise {
     pub place: [f64; 3],
 }
 
-/// By this part a constraint may be missed that is not among those of a basic solution: above the rounding of its
-/// products.
+/// Part by which a basic solution may violate its other constraints: more than the rounding of their products.
 const ROUNDING: f64 = 1e-12;
 
 /// Bound on the distance from any point of the surface to a triangle, within the cone of the triangle from the origin.
