@@ -3,8 +3,8 @@
 
     [BODIES=10000] scripts/yade.sh -j2 benches/packing.py
 
-Results go to out/packing: summary.json with targets, packing.png. Leave the machine alone meanwhile: times are those of
-the clock on the wall; the processor's own seconds stand beside them.
+Results go to out/packing: summary.json with targets, packing.png. Leave the machine alone meanwhile: times are
+wall-clock times; processor seconds stand beside them.
 """
 
 import os
@@ -110,7 +110,7 @@ def compare(runs, count):
 
 
 def draw(placements, edge):
-    """The packing from above and aside, colour by size; of its inside, which nobody sees, nothing."""
+    """The packing from above and aside, colour by size; without its hidden inside."""
     top, deep = max(body.state.pos[2] for body in O.bodies), 2.0
     seen = [body for body in O.bodies
             if body.state.pos[2] > top - 2 * deep or body.state.pos[0] > edge - deep or body.state.pos[1] < deep]

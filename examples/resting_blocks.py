@@ -45,7 +45,7 @@ def run(seconds):
 
 
 def set_friction(angle):
-    """Of all contacts that there are and come."""
+    """Of all present and later contacts."""
     for material in O.materials:
         material.frictionAngle = np.radians(angle)
     for contact in O.interactions:

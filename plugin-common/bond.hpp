@@ -89,8 +89,7 @@ public:
     Eigen::Vector3d slip() const { return axes.col(1) * displacement.y() + axes.col(2) * displacement.z(); }
     double twist() const { return rotation.x(); }
 
-    // Of dashpots over the area, so much per area across and along it, at middle(). velocity, spin: of body 2 against
-    // body 1.
+    // Of dashpots over the area, perArea across and along it, at middle(). velocity, spin: of body 2 against body 1.
     Wrench dashpot(const BondStiffness& perArea, const Eigen::Vector3d& velocity, const Eigen::Vector3d& spin) const;
 
 private:

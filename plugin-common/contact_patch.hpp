@@ -12,8 +12,8 @@
 
 namespace potential_particles {
 
-// World axes. What is proportional to the stiffness per area is given over it. Direction and place of the force, the
-// centre of pressure, are said with it.
+// World axes. Values proportional to stiffness per area are divided by it. Direction and place of the force, the centre
+// of pressure, come with it.
 struct ContactPatch {
     double area = 0; // 0: there is none
     double force = 0; // length^3
@@ -63,9 +63,8 @@ struct PatchInStep {
     ContactPatch patch; // area 0: an overlap of nothing but rounding
     Eigen::Vector3d point, normal; // centre of pressure; direction of the force on the second body
 
-    // What the library has found, in its axes and from its origin; nothing where it is no answer, and a disc at the
-    // contact's point stands in. Nowhere does the pressure exceed that of the largest depth: a force beyond is no
-    // answer.
+    // The library's patch, in its axes and from its origin; nothing where it is invalid: a disc at the contact's point
+    // then replaces it. The pressure nowhere exceeds that of the largest depth: a larger force is invalid.
     static std::optional<PatchInStep> of(pp_status status, const pp_patch& found)
     {
         const Eigen::Vector3d force(found.force);

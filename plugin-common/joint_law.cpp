@@ -215,10 +215,10 @@ void JointLaw::repeatAsPatch(const ContactPatch& patch, const JointMotion& motio
     push();
 }
 
-// The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them stand at either
-// edge of the patch, not spread over it, so that what lands on a face is pushed at the edge that comes down, as Housner
-// has it. The edges: of the direction g in which the approach changes, sqrt(3) times the radius of gyration from the
-// centroid, those of a rectangle along a side of it,
+// The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them act at each edge of
+// the patch, not spread over it, so that a body that lands on a face is pushed at the edge that lands, as in Housner.
+// The edges: of the direction g in which the approach changes, sqrt(3) times the radius of gyration from the centroid,
+// those of a rectangle along a side of it,
 //
 //     y = -+ sqrt(3) I g / sqrt(A g.I g),
 //
@@ -245,8 +245,8 @@ Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& mot
     return { force, (above - below) * edge.cross(n) + patch.centroid.cross(force) };
 }
 
-// The springs of the joint take along what they hold, and are drawn by the motion of this step; where the patch grows
-// or shrinks, springs join and leave.
+// The springs of the joint carry what they hold, and are stretched by the motion of this step; where the patch grows or
+// shrinks, springs join and leave.
 JointLaw::Springs JointLaw::springsAlong(const JointMotion& motion)
 {
     const Vector3d& n = motion.normal;
@@ -295,7 +295,7 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
         + left.twist * (1 - twistLeft) * std::abs(twist);
     shear *= shearLeft;
     twist *= twistLeft;
-    // What the strength was above the residual one is lost at once; friction does work over the slip.
+    // The strength above the residual one is lost at once; friction does work over the slip.
     if (breaks)
         all.energies.breaking += trialEnergy - energyAlong(springs) - all.energies.friction;
     return limit;

@@ -22,9 +22,9 @@ public:
     {
     }
 
-    // One step. patch: none where the bodies are apart, or where the bond holds and the contact was not looked for
-    // (not mayEnd); motion(): of the patch; posed(1), posed(2): the shapes, for a patch that becomes a bond. Whether
-    // a bond holds the bodies.
+    // One step. patch: none if the bodies are apart, or if the bond holds and the contact was not sought (not mayEnd);
+    // motion(): of the patch; posed(1), posed(2): the shapes, for a patch that becomes a bond. Returns whether a bond
+    // holds the bodies.
     template <class Motion, class Posed>
     bool step(const ContactPatch* patch, bool mayEnd, Motion&& motion, Posed&& posed)
     {
@@ -50,10 +50,9 @@ public:
     void repeatAsPatch(const ContactPatch& patch, const JointMotion& motion, const Wrench& damping);
 
 private:
-    // A bond that reaches its strength holds for this step, in which the contact may not have been looked for, and is
-    // ended in the next one, as if `bonded` had been set to false. False when it is ended: what it held along the
-    // joint is left to the springs of the patch, for open() or holdAsPatch() to go on with. mayEnd: the contact was
-    // looked for.
+    // A bond that reaches its strength holds for this step, in which the contact may not have been sought, and is ended
+    // in the next one, as if `bonded` had been set to false. False when it is ended: what it held along the joint is
+    // left to the springs of the patch, for open() or holdAsPatch() to continue with. mayEnd: the contact was sought.
     bool holdAsBond(bool mayEnd);
     void holdAsPatch(const ContactPatch& patch, const JointMotion& motion);
     // The bodies are apart.
@@ -61,7 +60,7 @@ private:
 
     void bond(const ContactPatch& patch, const JointMotion& motion, const PosedShape& shape1, const PosedShape& shape2);
 
-    // The springs along the joint: how far they are drawn, and turned about the normal.
+    // The springs along the joint: their extension, and turn about the normal.
     struct Springs {
         Eigen::Vector3d shear;
         double twist;

@@ -24,8 +24,8 @@ inline bool isUnit(const Eigen::Quaterniond& turn) { return isUnit(turn.coeffs()
 // old one's: divided by it, it is at most 2c/(2 - c) <= c(1 + c) away; beyond c = 1 the bound is more than any turn
 // can do.
 //
-// Of unit quaternions, turns one after the other have no smaller bounds, in sum, than the turn from the first to the
-// last: what sleeps by the sum of steps is also apart by the turn as a whole.
+// For unit quaternions the sum of the bounds of successive turns is at least the bound of the whole turn: a pair
+// skipped by the sum of steps is also separated by the whole turn.
 inline double wayOfTurn(const Eigen::Vector4d& from, const Eigen::Vector4d& to)
 {
     const double c = (to - from).norm();
@@ -44,7 +44,7 @@ inline double wayBetween(const pp_pose& from, const pp_pose& to, double radius)
         + radius * wayOfTurn(Map<const Eigen::Vector4d>(from.orientation), Map<const Eigen::Vector4d>(to.orientation));
 }
 
-// The sum of all ways so far and one more; never less than it, whatever is rounded. Not a number if one is not.
+// An upper bound, despite rounding, of the sum of all ways so far and one more. Not a number if one is not.
 inline double travelled(double before, double way)
 {
     return way > 0 ? (before + way * (1 + 1e-12)) * (1 + std::numeric_limits<double>::epsilon()) : before + way;

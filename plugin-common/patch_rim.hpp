@@ -56,9 +56,9 @@ struct PatchFrame {
 };
 
 // The corners of a patch, y and z of its frame, counter-clockwise about the normal: where the depths of both bodies add
-// up to 0, which does not depend on how far off its plane one looks. An ellipse of the same moments where the patch is
-// a disc in the place of one, or leaves its plane so far that what lies in it has another area. Throws
-// std::runtime_error where the library refuses a pose.
+// up to 0, which does not depend on the distance from its plane. An ellipse of the same moments where a disc replaces
+// the patch, or it leaves its plane so far that the area within it differs. Throws std::runtime_error where the library
+// refuses a pose.
 std::vector<Eigen::Vector2d> rimOf(const ContactPatch& patch, const PatchFrame& frame, const PosedShape& one,
                                    const PosedShape& other);
 

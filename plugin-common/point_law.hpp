@@ -44,8 +44,8 @@ struct ContactForce {
     double slid, damped; // energy that friction and dashpots took in this step
 };
 
-// One step of `dt`. Where the step only repeats the last one (`advance` false, at the start of a run), the history
-// stays as it is, so that a run that was interrupted goes on as if it had not been.
+// One step of `dt`. Where the step only repeats the last one (`advance` false, at the start of a run), the history is
+// kept, so that an interrupted run continues as if it had not been interrupted.
 inline ContactForce contactForce(const LawParameters& law, const ContactMotion& motion, double dt, bool advance,
                                  ContactHistory& history)
 {
@@ -79,7 +79,7 @@ inline ContactForce contactForce(const LawParameters& law, const ContactMotion& 
                 shearDamping = (shear + shearDamping) * (most / both) - shear;
         } else
             shearDamping.setZero();
-        // The velocity is that of half a step ago: half of the work is of the force now, half of that of the last step.
+        // The velocity is that of half a step ago: the work takes the mean of this force and that of the last step.
         const Vector3d before = history.damping;
         history.damping = damping * n + shearDamping;
         history.normal = n;

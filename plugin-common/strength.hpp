@@ -23,10 +23,9 @@ inline FrictionForce limitOf(const JointParameters& joint, bool broken, const Co
     return { cohesion * patch.area + friction, cohesion * lever + friction * patch.twistLever };
 }
 
-// The damage that the stress where it is largest, at a corner of the bonded area, asks for: 0 below the strength, 1
-// where the bond breaks. With the load f, the stress over the strength as long as nothing is damaged, a linear fall of
-// the stress to 0 over the opening or slip `softening` is (1 - D) f = 1 - (f - 1)/g, g = softening * stiffness /
-// strength.
+// The damage due to the largest stress, which is at a corner of the bonded area: 0 below the strength, 1 where the bond
+// breaks. With the load f, the stress over the strength as long as nothing is damaged, a linear fall of the stress to 0
+// over the opening or slip `softening` is (1 - D) f = 1 - (f - 1)/g, g = softening * stiffness / strength.
 inline double damageOf(const JointParameters& joint, const Bond& bond, const BondStrain& strain)
 {
     const auto damage = [&](double stress, double strength, double stiffness) {

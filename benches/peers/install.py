@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Gets and builds the contestants, once; what cannot be had is left out and said. The only part that needs the network.
+"""Gets and builds the contestants, once; missing ones are left out and reported. The only part that needs the network.
 """
 
 import os

@@ -12,13 +12,13 @@ import subprocess
 import tempfile
 from pathlib import Path
 
-# What llvm-mca of Debian 12 knows that is nearest to the machine at hand.
+# The model of llvm-mca in Debian 12 nearest to this machine.
 PROCESSORS = {("AuthenticAMD", 25): "znver3", ("AuthenticAMD", 26): "znver3", ("AuthenticAMD", 23): "znver2"}
 OTHERWISE = "skylake"
 MOST_STEPS, MOST_CALLS = 60_000, 20
 CALLS_BEFORE = 2_500  # those of the untimed walk, which fill the memories, and more
 REQUESTS = 6  # of 600 calls or more: enough for those before and those that are followed
-# Where gdb, which leaves out the shuffling of addresses, loads a program.
+# Where gdb, which turns off address randomisation, loads a program.
 BASE = 0x555555554000
 STEPPER = """
 import gdb

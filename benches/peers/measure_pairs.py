@@ -25,7 +25,7 @@ CURVES = {
 
 class Effort:
     def __init__(self, quick):
-        # Batches so short that some of them have a core to themselves, and many of them.
+        # Many batches, so short that some of them have a core to themselves.
         self.rounds, self.seconds = (2, 2e-3) if quick else (15, 2e-3)
         self.pairs, self.many = (10, 4) if quick else (100, 30)
         self.planes, self.chunky = ((5, 100), (8, 128)) if quick else (PLANES, CHUNKY_PLANES)
@@ -148,5 +148,5 @@ class Measurement:
 
 
 def load():
-    """Work that goes on beside the measurement: the mean load of a minute over the processors."""
+    """Other work during the measurement: the mean load of a minute over the processors."""
     return os.getloadavg()[0] / (os.cpu_count() or 1)

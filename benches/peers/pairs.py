@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from polyhedron import Polyhedron, chunky, distance, named, penetration
 
 OVERLAP = 5e-4  # of the size, as in a calm pile
-NEAR = 0.02  # distance of pairs that boxes do not tell apart
+NEAR = 0.02  # distance of pairs that boxes do not separate
 STEP = 5e-5  # move and turn from one pose to the next
 POSES = 6
 TILT = 1e-4  # radians, of faces that lie on each other

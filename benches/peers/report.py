@@ -128,7 +128,7 @@ def published_table():
 
 
 def draw(rows, curves, line, path):
-    """Time against error, a panel for each group; filled: from memory, hollow: from nothing."""
+    """Time against error, a panel for each group; filled: warm, hollow: cold."""
     groups = [name for name in CURVE_GROUPS if any(row["group"] == name for row in rows)]
     figure, axes = plt.subplots(1, len(groups), figsize=(4.6 * len(groups), 5.0), sharey=True, squeeze=False)
     labels = _unique(row["label"] for row in rows if row["group"] in groups and row["work"] == CONTACT)

@@ -103,7 +103,7 @@ void ContactMemory::setup_pre_exchange()
     checkIds();
 }
 
-// An atom that is new may have the ID of one that was deleted: what contacts remember is of that one.
+// A new atom may have the ID of a deleted one: what contacts remember belongs to the latter.
 void ContactMemory::forgetThoseBefore()
 {
     const int own = !partners.empty();

@@ -13,8 +13,8 @@ namespace potential_particles {
 // finite.
 constexpr double bearable = 1e100;
 
-// The number that `text` is; ends LAMMPS, in the name of `command`, where it is none or lies outside [low, high]. 0
-// counts as inside where `orZero`.
+// The number in `text`; ends LAMMPS, in the name of `command`, where it is no number or outside [low, high]. With
+// `orZero`, 0 is valid too.
 double numberIn(LAMMPS_NS::LAMMPS* lmp, const std::string& command, const std::string& what, const char* text,
                 double low = -bearable, double high = bearable, bool orZero = false);
 

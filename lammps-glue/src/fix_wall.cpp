@@ -84,8 +84,7 @@ void FixWall::checkTimeStep()
     endWhereAny(lmp, why);
 }
 
-// A wall has no periodic images: what of a body reaches over a border does not meet the part of the wall at the other
-// side.
+// A wall has no periodic images: the part of a body beyond a border does not meet the wall at the other side.
 void FixWall::checkBorder() const
 {
     if (comm->me != 0)
@@ -317,7 +316,7 @@ bool FixWall::leavesToAnother(const Touched& one, double radius) const
 void FixWall::applyLaw(int i, const Frame& frame, bool advance, const pp_flat_contact& found, Known& contact,
                        Surroundings& here)
 {
-    // A contact that comes over a seam takes its history along.
+    // A contact that crosses a seam keeps its history.
     if (!contact.history.touching)
         for (Known& left : here.known)
             if (left.history.touching && shareCorner(left.element, contact.element)

@@ -6,7 +6,7 @@
 //
 // Planes and one mesh, which may move together as one rigid body, from where the command says, from when it is given.
 // Bodies are put into the frame of the wall, so that its triangles are sorted into cells once, and planes and triangles
-// that are apart sleep until the body has come as far. As a vector: contacts, elastic energy, energy that friction and
+// apart are skipped until the body has moved as far. As a vector: contacts, elastic energy, energy that friction and
 // dashpots took, the force on the wall, and with `patch` the energy that patches took as they grew and shrank and that
 // breaking took. Triangles then add up: each has the pressure that lies on it.
 #pragma once

@@ -13,8 +13,7 @@ namespace potential_particles {
 constexpr double lowestRestitution = 0.01;
 constexpr const char* strengthWords = "cohesion C, tension T, residual FRICTION COHESION, softening W";
 
-// From arguments[at] on: four numbers. Ends LAMMPS, in the name of `command`, where one is no number or not what it
-// must be.
+// From arguments[at] on: four numbers. Ends LAMMPS, in the name of `command`, where one is no number or invalid.
 LawParameters readLaw(LAMMPS_NS::LAMMPS* lmp, const char* command, char** arguments, int at);
 
 // The same numbers, with stiffnesses per area, and no strength.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// Of what something that is remembered is: a number from all that it depends on, which goes along with it, to other
-// ranks and into files. Where it is another one now, what is remembered does not fit.
+// Identifies what a memory belongs to: a number from all that it depends on, sent to other ranks and saved with it.
+// Where the number differs now, the memory does not fit.
 #pragma once
 
 #include <cstdint>

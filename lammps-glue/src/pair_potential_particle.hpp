@@ -6,9 +6,9 @@
 //
 // Contacts act in a point (point_law), or, with `patch`, on the patch by the law of joints (plugin-common), stiffnesses
 // being per area. A step: poses of all atoms are gathered. Pairs of the list of neighbours are *far* or *near*. A far
-// pair sleeps until both bodies together have come as far as they were apart when they were last looked at; it has no
-// memory. Near pairs have a slot each, with the library's state and the history of the contact, and are solved in one
-// call of the library.
+// pair is skipped until both bodies together have moved by their distance at the last look; it has no memory. Near
+// pairs have a slot each, with the library's state and the history of the contact, and are solved in one call of the
+// library.
 #pragma once
 
 #include "plugin-common/point_law.hpp"
@@ -53,7 +53,7 @@ public:
     LAMMPS_NS::tagint tagAtBuild(int atom) const
     {
         return tags[atom];
-    } // a fix may have put new atoms in the place of ghosts since
+    } // a fix may have replaced ghosts by new atoms since
     double markAtBuild(int slot) const { return markOfBoth(marks[bodies[slot].a], marks[bodies[slot].b]); }
     std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
     bool lasts(int slot) const { return byPatch ? joints[slot].lasts() : histories[slot].touching; }
@@ -124,7 +124,7 @@ private:
     int moving = 0; // FixNve::groups
     double checkedStep = -1; // time step that was found stable
     bool toldOfTurns = false, toldOfShapes = false;
-    bool advance = true; // this step goes on, and does not repeat the last one
+    bool advance = true; // this step does not repeat the last one
 
     int local = 0; // atoms, when the list of neighbours was built
     std::vector<LAMMPS_NS::tagint> tags;

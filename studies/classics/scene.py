@@ -64,7 +64,7 @@ class Scene:
         self.overlap = size * max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP,
                                   min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
         self.stiffness = self.load / self.overlap
-        # In which motions are told: joints give way by more than their overlap.
+        # The unit of motions: joints give way by more than their overlap.
         self.motion_unit = max(self.overlap, size * OVERLAP)
         self.friction = 0.0
         self.functor = None
@@ -210,7 +210,7 @@ class Scene:
         return rests
 
     def settle(self, most=4000):
-        """Until the blocks rest, and at most so many beats; whether they rest."""
+        """Runs until the blocks rest, at most `most` beats; whether they rest."""
         return self.comes_to_rest(most * self.beat, every=20.0)
 
     def check(self):

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Which builds of YADE were tested, and what is said of one that was not.
 
-The table is yade-glue/tested_builds.txt, of which the build puts a copy beside this file. It keeps nobody out: that is
-the business of the comparisons with YADE's libraries and classes.
+The table is yade-glue/tested_builds.txt, of which the build puts a copy beside this file. It refuses no YADE: the
+comparisons with YADE's libraries and classes do that.
 """
 import collections
 import os

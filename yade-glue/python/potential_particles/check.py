@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What YADE does without a word although it is wrong for potential particles, looked for in the scene as it stands."""
+"""What YADE does silently although it is wrong for potential particles, looked for in the scene as it stands."""
 import functools
 import math
 import warnings
@@ -32,7 +32,7 @@ _MEASURED_AT_FIRST = 50
 
 
 class SceneWarning(UserWarning):
-    """Something in a scene that YADE passes over in silence and that is wrong for its potential particles."""
+    """Something in a scene that is wrong for its potential particles and that YADE does not report."""
 
 
 class Finding(NamedTuple):
@@ -68,7 +68,7 @@ def check():
 
 
 def findings(scene, measured=_MEASURED_AT_FIRST):
-    """What check() returns; the functors of the scene have been looked up. measured: at most so many volumes are."""
+    """What check() returns; the functors of the scene have been looked up. measured: the most volumes measured."""
     import yade
     from . import _dispatchers
     ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]

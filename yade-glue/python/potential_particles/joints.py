@@ -69,8 +69,7 @@ def require_patches(engines):
 
 
 def require_angles(scene):
-    """ValueError where a ConicJointMat has a friction angle that is none: the attribute is YADE's, which takes any
-    number.
+    """ValueError where a ConicJointMat has an invalid friction angle: the attribute is YADE's, which takes any number.
     """
     import yade
     for material in scene.materials:

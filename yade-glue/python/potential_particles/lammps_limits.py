@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What of a scene LAMMPS cannot be told: refused where bodies would move otherwise from the start, told where a script
-can see to it.
+"""What LAMMPS cannot take of a scene: refused where bodies would move otherwise from the start, warned of where a
+script can act.
 """
 import warnings
 

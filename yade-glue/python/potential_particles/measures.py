@@ -135,7 +135,7 @@ def coordination_number(skip_free=False):
 
 
 def contacts():
-    """The scene's contacts. YADE keeps those of a body that was erased until the next step; they are none."""
+    """The scene's contacts. YADE keeps those of an erased body until the next step; they do not count."""
     import yade
     there = {body.id for body in yade.O.bodies}
     return [

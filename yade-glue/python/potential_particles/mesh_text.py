@@ -97,7 +97,7 @@ def _in_range(number, count, so_far, what):
 
 
 def numbers(words, kind, count, what):
-    """So many words as numbers of a kind, int or float; ValueError that names what they should be."""
+    """`count` words as numbers of a kind, int or float; ValueError that names what they should be."""
     try:
         found = [kind(word) for word in words]
     except ValueError:

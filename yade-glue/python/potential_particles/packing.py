@@ -56,10 +56,10 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
     the bottom upwards, `number` of them or, with None, as many as fit.
     margin: least distance between two bodies, length; that to the container is half of it.
     seed: the same one gives the same packing, whatever `threads` (by default the number of cores) is.
-    progress: a bar on the terminal; where standard error is none, a line at the end.
+    progress: a bar if standard error is a terminal, else a line at the end.
 
-    Fewer than `number` come back where no more fit, which is said; Ctrl-C ends the packing and keeps what has its
-    place. ValueError for what cannot be packed.
+    Fewer than `number` are returned, and reported, if no more fit; Ctrl-C ends the packing and keeps the placed bodies.
+    ValueError for what cannot be packed.
     """
     shapes = _shapes(shapes)
     choices = _choices()

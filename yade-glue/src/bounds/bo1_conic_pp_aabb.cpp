@@ -22,9 +22,9 @@ PP_FUNCTOR_1D_DEFINITIONS(Bo1_PP_Aabb_Conic)
 
 namespace {
 
-    // The dispatcher widens a box by as much as the body is likely to move until targetInterv steps from now, which it
-    // takes from the way of its centre since the last box: of a body that turns in one place, nothing. This moves the
-    // centre's last place so far away as the sides of the box have moved. The dispatcher overwrites it a moment later.
+    // The dispatcher widens a box by the expected motion of the body in the next targetInterv steps, from the way of
+    // its centre since the last box: 0 for a body that turns in one place. This moves the centre's last place as far
+    // away as the sides of the box have moved. The dispatcher overwrites it soon after.
     void countTurning(yade::Bound& bound, const Box& box, const Vector3r& centre)
     {
         const Vector3r sweep = Vector3r::Constant(bound.sweepLength);
@@ -43,8 +43,8 @@ void Bo1_ConicPP_Aabb::go(const boost::shared_ptr<yade::Shape>& shape, boost::sh
     try {
         if (!bound)
             bound = boost::make_shared<yade::Aabb>();
-        // Not `scene`: a shape keeps the functor that first served it, also when it goes into another scene, and that
-        // one's pointer is to a scene that may be gone.
+        // Not `scene`: a shape keeps the functor that first served it, even in another scene, and that functor's
+        // pointer may be to a scene that is gone.
         const yade::Scene& stepping = *Singleton<yade::Omega>::instance().getScene();
         const Box box
             = BoundWatch::guards(stepping) ? boxAsTurned(shape, at, stepping) : boxOfAnyTurn(shape, at, stepping);

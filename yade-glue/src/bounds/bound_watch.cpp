@@ -47,8 +47,7 @@ bool BoundWatch::cellHasChanged()
 
 namespace {
 
-    // What is looked at of the bodies that are some places further than this one: first the body, then what it points
-    // at.
+    // Fetches the data of the bodies some places further than this one: first the body, then what it points at.
     void fetchBodiesAhead(const std::vector<boost::shared_ptr<yade::Body>>& bodies, std::size_t place)
     {
         constexpr std::size_t ahead = 8;
@@ -98,7 +97,7 @@ bool BoundWatch::isOutside(const yade::Body& body, Inside& known) const
     const yade::Se3r& at = body.state->se3;
     const Particle* particle = nullptr;
     if (known.kind == Kind::conic) {
-        // Only where the box is the library's does the particle alone say what must lie within.
+        // The particle alone defines what must lie within only if the box is the library's.
         const auto& conic = static_cast<const ConicPotentialParticle&>(*body.shape);
         particle = conic.automaticBox ? conic.particle() : nullptr;
     }

@@ -46,8 +46,8 @@ private:
     enum class Kind : unsigned char { other, corners, conic, potential };
     static Kind kindOf(const yade::Shape& shape);
 
-    // A particle with this serial number, posed so, lies in the box with `room` to spare on each side. That holds
-    // whatever body it is, so that nobody has to tell when bodies, shapes or boxes are changed.
+    // A particle with this serial number, posed so, lies in the box with `room` to spare on each side. That holds for
+    // any body, so that changes of bodies, shapes or boxes need no notice.
     struct Inside {
         std::uint64_t serial = 0;
         const void* classOfShape = nullptr; // its virtual table

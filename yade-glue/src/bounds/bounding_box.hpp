@@ -32,7 +32,7 @@ Box boxAsTurned(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& a
 // The same, however the body may turn about its centre.
 Box boxOfAnyTurn(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& at, const yade::Scene& scene);
 
-// Whether the shape is a Facet of YADE or one whose stand-in has a hull; then its box as it is turned.
+// Whether the shape is a Facet, or its equivalent particle has a hull; then its box as it is turned.
 bool hasCorners(const yade::Shape& shape);
 Box boxOfCorners(const yade::Shape& shape, const yade::Se3r& at, const yade::Scene& scene);
 

@@ -24,7 +24,7 @@ constexpr AnswerPath answerPaths[] = {
       false }, // apart: the solver met a proof on its way, or what it knew of the last step is carried on
     { Count::carried, "carried", false }, // touching: the contact of the last step, carried on
     { Count::warm, "warm", false }, // solved from the remembered point
-    { Count::cold, "cold", false }, // solved from nothing
+    { Count::cold, "cold", false }, // solved cold
     { Count::coneProgram, "cone_program", false }, // solved as a cone program
 };
 

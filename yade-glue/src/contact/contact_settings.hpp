@@ -33,7 +33,7 @@ struct ContactSettings {
     double interactionDistance = 0.0;
     bool rotations = false;
 
-    // Whether laws are told how far a pair is apart, instead of that it is.
+    // Whether laws get the distance of a pair, not only that it is apart.
     bool seesGaps() const { return rotations || interactionDistance > 0; }
 
     // The settings for the library. Throws std::invalid_argument naming the attribute, its value

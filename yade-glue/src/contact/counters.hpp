@@ -69,7 +69,7 @@ public:
     void reset();
 
 private:
-    // The last one is for all threads beyond as many.
+    // The last row is for all further threads.
     static constexpr std::size_t rowCount = 256;
     std::unique_ptr<Row[]> rows;
 };

@@ -19,8 +19,8 @@ namespace potential_particles {
 // Of a body with a Facet, in world axes from `origin`. Throws std::invalid_argument when it has no three vertices.
 BoundaryPoints verticesOf(const yade::Shape& facet, const yade::State& state, const yade::Vector3r& origin);
 
-// The facets around each vertex, from where all of them were when the scene's number of bodies changed last. What they
-// may have done since is for the caller to see: this only says whom to look at.
+// The facets around each vertex, from their positions when the scene's number of bodies changed last. The caller must
+// check for later motion: this only gives the facets to check.
 class FacetMesh {
 public:
     // Call in each step before around(), from any thread: the first one of a step looks whether the mesh is still that

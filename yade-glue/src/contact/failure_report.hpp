@@ -28,7 +28,7 @@ public:
     void clear();
 
 private:
-    // A scene that went astray fails everywhere: this many say it clearly enough.
+    // A scene that diverges fails everywhere: this many reports are enough.
     static constexpr std::size_t most = 1000;
 
     mutable std::mutex mutex;

@@ -15,7 +15,7 @@ namespace potential_particles {
 struct FlatPair : PairInScene {
     const yade::Shape& boundary;
 
-    // In a loop of our own: the bodies as it has gathered them, and what it knows of the pair, if it may let it sleep.
+    // In a loop of our own: the bodies as it has gathered them, and what it knows of the pair, if it may skip it.
     const BodyInStep* const body1 = nullptr;
     const BodyInStep* const body2 = nullptr;
     PairInStep* const known = nullptr;
@@ -27,7 +27,7 @@ struct FlatPair : PairInScene {
 
     KeptApart::Turned turned() const { return { *particle, state2.se3.orientation }; }
 
-    // With the particle in the origin: far from that of the scene no digits are lost.
+    // The particle is at the origin: no digits are lost far from the scene's origin.
     pp_pose turn() const
     {
         const yade::Quaternionr& q = state2.se3.orientation;
@@ -64,7 +64,7 @@ struct FlatPair : PairInScene {
             known->wakes = 0;
     }
 
-    // What has physics does not sleep: its law is called in each step.
+    // A pair with physics is never skipped: its law runs in each step.
     void noteRoom(double room)
     {
         if (known)

@@ -44,8 +44,8 @@ namespace {
         return true;
     }
 
-    // How far from `point`, outside of a particle, its surface lies along a unit vector into it; not a number if it is
-    // missed. From points within, further and further in, back to where the line leaves it.
+    // Distance from `point`, outside of a particle, to its surface along a unit vector into it; not a number if it is
+    // missed. Found from points within, deeper and deeper, back to where the line leaves it.
     double gapBefore(const Particle& particle, const pp_pose& pose, const Vector3r& point, const Vector3r& inwards)
     {
         for (double way = 1e-3 * particle.boundingRadius(); way < 4 * particle.boundingRadius(); way *= 2) {
@@ -136,7 +136,7 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
         noteRoom(own->apart.note(turned1(), turned2(), branch(), distance));
     }
 
-    // What has physics does not sleep: its law is called in each step.
+    // A pair with physics is never skipped: its law runs in each step.
     void noteRoom(double room)
     {
         if (known)

@@ -52,7 +52,7 @@ public:
                   const boost::shared_ptr<yade::Interaction>& interaction) noexcept;
     // Where this thread counts.
     Counters::Row& counts() { return counters.ofThisThread(); }
-    // What go() counts of pairs that such a loop lets sleep.
+    // What go() counts, for pairs that such a loop skips.
     static void countSleeping(Counters::Row& counts, std::uint64_t pairs);
 
 protected:
@@ -68,8 +68,8 @@ protected:
     // Area and points for KnKsPhys, if the pair has it. patchArea: 0 for a contact at its point.
     void fillPhysics(PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found,
                      double patchArea);
-    // Point, normal and overlap of the patch in the place of those of the point; false where there is none. `origin`:
-    // of its positions; `sense`: -1 if its force, which is on its own second body, is on body 1.
+    // Point, normal and overlap of the patch instead of those of the point; false without a patch. `origin`: of its
+    // positions; `sense`: -1 if its force, which is on its own second body, is on body 1.
     bool fillPatch(PairInScene& pair, pp_status status, const pp_patch& patch, const yade::Vector3r& origin,
                    double sense);
     static double areaAtPoint(const PairInScene& pair, const Posed& body1, const Posed& body2, const pp_contact& found);

@@ -61,7 +61,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pySetAttr(const std::string& key, const py::obj
         if (!own)
             IGeomFunctor::pySetAttr(key, value);
     } catch (...) {
-        // updateAttrs sets one after the other and checks at its end, to which it does not come now.
+        // updateAttrs sets one after the other and checks at its end, which it does not reach now.
         written = accepted.held()->given;
         throw;
     }

@@ -43,9 +43,9 @@ pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_p
         return std::clamp((contact.point() - contact.corners[i]).dot(along) / along.squaredNorm(), 0.0, 1.0);
     }
 
-    // Whether S falls from the least point of a facet, on a seam, into the neighbour that has that point as well. By
-    // convexity it does if it falls towards a vertex, and if it falls the neighbour has a lower one, off the seam; if
-    // it rises towards all, that point is the neighbour's least too.
+    // Whether S falls from the minimum of a facet, on a seam, into the neighbour that shares this point. By convexity
+    // it does if it falls towards a vertex; the neighbour's minimum is then lower, off the seam. If S rises towards all
+    // vertices, the point is the neighbour's minimum too.
     enum class Slope { falls, rises, unclear };
 
     Slope slopeInto(const BoundaryPoints& neighbour, const TriangleContact& own)
@@ -163,8 +163,8 @@ bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryP
     return status == PP_OK && (sense < 0 || (sense > 0 && left.to < pair.interaction->id1));
 }
 
-// A contact that appears has no force in its first step with KnKsPhys, whose area is not known before the step after
-// (see fillPhysics): the facet that had it holds it for so long, in the place of the owner.
+// A new contact has no force in its first step with KnKsPhys, whose area is unknown before the next step (see
+// fillPhysics): the facet that had it holds it until then, instead of the owner.
 bool Ig2_Facet_ConicPP_ScGeom::mustHold(const FlatPair& pair) const
 {
     return pair.real && castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
@@ -227,7 +227,7 @@ const yade::Interaction* Ig2_Facet_ConicPP_ScGeom::ownerOf(const FlatPair& pair,
                                                            const pp_flat_contact& found, pp_flat_contact& ofOwner)
 {
     const TriangleContact own = contactOf(pair, points, found, pair.interaction->id1);
-    // To leave the contact it is enough that there is one with less; to hold it, the one with the least is wanted.
+    // To leave the contact, one lower neighbour is enough; to hold it, the lowest is needed.
     const bool holds = mustHold(pair);
     const yade::Interaction* owner = nullptr;
     eachNeighbour(pair, own, [&](const Neighbour& neighbour) {

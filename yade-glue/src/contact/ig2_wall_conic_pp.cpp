@@ -39,8 +39,7 @@ pp_status Ig2_Wall_ConicPP_ScGeom::detect(FlatPair& pair, const BoundaryPoints& 
     const pp_status status = fromNothingIfNew(ask(), found, pair.real, pair.state(), ask);
     if (status != PP_OK || found.kind != PP_OVERLAPPING || wall.sense == 0 || Vector3r(found.normal).dot(normal) < 0)
         return status;
-    // The centre is behind a wall that pushes to one side only: the overlap is as far as the particle reaches behind
-    // it.
+    // The centre is behind a wall that pushes to one side only: the overlap is the particle's reach behind it.
     const Vector3r least(found.on_boundary);
     found.overlap = distanceToSurface(*pair.particle, turn, least, -normal);
     copyTo(found.normal, -normal);

@@ -23,7 +23,7 @@ namespace potential_particles {
 // penetrationDepth of a pair that does not touch. Laws ask for its sign only: the width of the gap is not computed.
 constexpr double apart = -1.0;
 
-// dynamic_cast takes its time; nearly always the object is of one known class.
+// dynamic_cast is slow; nearly always the object is of one known class.
 template <class Usual, class Wanted, class Object> Wanted* castTo(Object* object)
 {
     if (object && typeid(*object) == typeid(Usual))
@@ -101,7 +101,7 @@ struct PairInScene {
         return true;
     }
 
-    // Such a pair is not looked for a contact.
+    // No contact is sought for such a pair.
     bool isHeldByBond() { return real && findGeom() && own && own->isHeldByBond(); }
 
     // Ends the step for this pair. The stored normal must still be that of the last step.

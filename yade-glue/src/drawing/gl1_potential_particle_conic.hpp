@@ -27,12 +27,12 @@ public:
 private:
     struct Kept {
         std::weak_ptr<const Particle> particle;
-        DrawnMesh mesh; // empty when there is none, which has been said then
+        DrawnMesh mesh; // empty without a mesh, which has been reported
     };
     const DrawnMesh& meshOf(const std::shared_ptr<const Particle>& particle);
 
     std::unordered_map<std::uint64_t, Kept> meshes; // by Particle::serial
-    std::size_t sweepAt = 64; // meshes of particles that are gone are dropped when there are so many
+    std::size_t sweepAt = 64; // at this number, meshes of particles that are gone are dropped
 };
 
 } // namespace potential_particles

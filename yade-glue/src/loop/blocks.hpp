@@ -9,8 +9,8 @@
 
 namespace potential_particles {
 
-// Elements stay where they are. An element is made, with all of its block, when it is asked for first, by whichever
-// thread that is; beyond the last index, and where memory runs out, there is none.
+// Elements stay where they are. An element is made, with all of its block, at its first request, by any thread; beyond
+// the last index, and where memory runs out, it is null.
 template <class Element> class Blocks {
 public:
     Blocks() : blocks(new std::atomic<Element*>[blockCount]()) { }

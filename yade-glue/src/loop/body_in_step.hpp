@@ -14,8 +14,8 @@
 
 namespace potential_particles {
 
-// A value that one thread writes while others read it. Readers get some value that it has had, perhaps of another step
-// than the values beside it: enough to fetch memory ahead of its use, which does no harm where it turns out wrong.
+// A value that one thread writes while others read it. Readers get a value that it once had, perhaps of another step
+// than the values beside it: enough to fetch memory ahead of its use, which does no harm if it is wrong.
 template <class Value> class Guess {
 public:
     Guess(Value value) : held(value) { }
@@ -28,11 +28,10 @@ private:
 
 // How far a body has come.
 struct Way {
-    // A bound on the way that any point of the body has come since the loop met it; never less, whatever is rounded.
+    // An upper bound, despite rounding, on the way of any point of the body since the loop met it.
     double travelled = 0;
     // Number of the period over which `travelled` has been summed. A new one begins, at 0, when the body gets another
-    // particle or moves by what has no bound (not a number, say); ways of two periods cannot be compared. 0: it is not
-    // known.
+    // particle or its motion has no bound (not a number, say); ways of two periods cannot be compared. 0: unknown.
     std::uint64_t generation = 0;
 };
 

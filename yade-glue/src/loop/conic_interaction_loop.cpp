@@ -79,8 +79,8 @@ void ConicInteractionLoop::action()
     serving.rethrow();
 }
 
-// By YADE's loop, which passes over pairs that are said to have no functor. In one thread and in the order of ids, so
-// that forces are added up as by this one.
+// By YADE's loop, which skips pairs marked as without a functor. In one thread and in the order of ids, so that forces
+// are added up as by this one.
 void ConicInteractionLoop::serveRest(const std::vector<std::size_t>& left)
 {
     struct Passed {

@@ -132,8 +132,8 @@ Done knKs(yade::Law2_SCG_KnKsPhys_KnKsLaw& law, yade::Scene& scene, const yade::
             phys.u_elastic += way;
         }
     }
-    // YADE's functor asks every shape, as if it were a PotentialParticle. Where it is none, what it finds is left to
-    // chance; no force depends on these two.
+    // YADE's functor reads every shape as if it were a PotentialParticle. What it reads from other shapes is undefined;
+    // no force depends on these two.
     if (one.isBoundary || other.isBoundary)
         phys.tensionBroken = phys.cohesionBroken = true;
 

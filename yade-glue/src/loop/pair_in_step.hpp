@@ -14,12 +14,12 @@
 
 namespace potential_particles {
 
-// Where YADE keeps the pair's interaction in its list. Written by the thread that has the interaction. A cache line: of
-// a pair that sleeps no other one is read.
+// Where YADE keeps the pair's interaction in its list. Written by the thread that has the interaction. One cache line:
+// of a skipped pair no other is read.
 struct alignas(64) PairInStep {
     Guess<int> id1 = -1, id2 = -1;
     std::uint64_t generation1 = 0, generation2 = 0;
-    // They do not touch while the bodies have travelled less than this, taken together.
+    // The bodies do not touch while the sum of their ways is less than this.
     double wakes = 0;
     // The step in which it last pushed its bodies, if ever.
     std::uint64_t pushedIn = 0;

@@ -17,8 +17,7 @@ public:
     // Contacts that are listed carry this number.
     std::uint64_t number() const { return lists; }
 
-    // Before the sums of a step: enters the contacts at these places, which are in no list yet. So many pairs and
-    // bodies there are.
+    // Before the sums of a step: enters the contacts at these places, which are in no list yet. pairs, bodies: totals.
     void list(const std::vector<std::size_t>& missing, Step& step, std::size_t pairs, std::size_t bodies);
 
     // Adds up what pushes a body, and hands it to the scene; many threads may do so at once.
@@ -29,7 +28,7 @@ private:
         int other;
         std::uint32_t place; // in YADE's list; of a pair that has ended, another one may have taken it
     };
-    // A contact that has ended is listed anew for so many steps: many begin again.
+    // For this many steps an ended contact stays in new lists: many begin again.
     static constexpr std::uint64_t late = 100;
     // Entries whose contacts are fetched before their turn.
     static constexpr std::size_t ahead = 16;

@@ -36,7 +36,7 @@ const boost::shared_ptr<Functor>* entry(const yade::FunctorMatrix<Functor>& matr
         return entry(matrix, first.getClassIndex(), second.getClassIndex());
     }
 
-    // The indices of an object's class and of those that it is derived from.
+    // The indices of an object's class and of its base classes.
     template <class Object> std::vector<int> indices(const Object& object)
     {
         std::vector<int> found { object.getClassIndex() };

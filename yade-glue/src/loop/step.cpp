@@ -123,8 +123,7 @@ void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>
     }
 }
 
-// Of a wall its orientation does not count. What moves by no bound, such as what is not a number, begins anew in each
-// step.
+// A wall's orientation does not count. Motion without a bound (not a number, say) starts a new period in each step.
 void Step::lookAtFlat(BodyInStep& body, const yade::Shape& shape)
 {
     const bool same = isStill(body.flat, shape);

@@ -62,8 +62,7 @@ public:
         flats.resize(bodies);
     }
     // Then, by any thread, looks at one of them, which may be null. False when memory runs out. Walls and facets are
-    // many and mostly near to nothing: one that is known as such, and of which no pair has asked for some steps, waits
-    // until one does.
+    // many, and most have nothing near them: a known one that no pair has needed for some steps waits until one does.
     bool gather(std::size_t id, yade::Body* body)
     {
         if (body && flats[id].body == body && flats[id].waits < count)
@@ -93,7 +92,7 @@ public:
     }
     PairInStep* pairAt(std::size_t place) { return pairs.at(place); }
     std::size_t bodyCount() const { return ways.size(); }
-    // Of two gathered bodies: whether the pair sleeps.
+    // Whether a pair of gathered bodies is skipped.
     bool sleeps(const PairInStep& pair)
     {
         return pair.sleeps(wayOf(pair.id1), wayOf(pair.id2));

@@ -28,8 +28,8 @@ public:
         const yade::Quaternionr& turn;
     };
 
-    // The particles are `distance` or more apart where they are now. `branch`: from body 1 to body 2. By how much they
-    // are so for sure; 0 when that cannot be known.
+    // The particles are `distance` or more apart where they are now. `branch`: from body 1 to body 2. Returns the part
+    // of it that is certain; 0 if unknown.
     double note(const Turned& one, const Turned& other, const yade::Vector3r& branch, double distance)
     {
         forget();
@@ -54,8 +54,8 @@ public:
     // Whether anything is known.
     bool isKnown() const { return limit > 0; }
 
-    // By how much they are still apart for sure; 0 when nothing is known. No point of a particle moves further than its
-    // centre does, and by its turn on the ball around it.
+    // The distance that is still certain; 0 when nothing is known. No point of a particle moves further than its centre
+    // does, and by its turn on the ball around it.
     double left(const Turned& one, const Turned& other, const yade::Vector3r& branch) const
     {
         if (!(limit > 0) || serial1 != one.particle.serial)

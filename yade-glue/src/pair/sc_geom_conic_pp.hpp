@@ -49,7 +49,7 @@ public:
     // and this.
     pp_pair_state state {};
 
-    // Of the last look, if the functor is told to find it; not saved. Only pairs that have one take the room for it.
+    // Of the last look, if the functor has to find it; not saved. Only pairs with a patch take memory for it.
     const ContactPatch& patch() const
     {
         static const ContactPatch none;
@@ -71,8 +71,8 @@ public:
         return keptPatch.get();
     }
 
-    // At each look, first: drops what is not saved if the pair was saved since the last, so that a run goes on from a
-    // save as one that is loaded from it does. By the thread that looks, since a script may save from another.
+    // At each look, first: drops what is not saved if the pair was saved since the last, so that a run continues after
+    // a save like one loaded from it. By the thread that looks, since a script may save from another.
     void dropIfSaved()
     {
         if (!saved.load(std::memory_order_relaxed))

@@ -9,7 +9,7 @@ namespace potential_particles {
 
 constexpr std::size_t lineSize = 64;
 
-// So many bytes from there on; null and what is no longer there do no harm.
+// `size` bytes from `offset` on; null and freed memory do no harm.
 inline void fetch(const void* place, std::size_t size, std::size_t offset = 0)
 {
     if (!place)

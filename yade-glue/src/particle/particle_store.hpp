@@ -14,10 +14,9 @@
 
 namespace potential_particles {
 
-// Keyed by the address of the shape, and checked against every coefficient at every look-up, so
-// that neither a changed attribute nor a reused address can return a particle of other days. The
-// comparison costs some ten nanoseconds; the locks are spread over shards, since the threads of a
-// step look up different bodies most of the time.
+// Keyed by the address of the shape, and checked against every coefficient at every look-up, so that neither a changed
+// attribute nor a reused address can return an outdated particle. The comparison costs some ten nanoseconds; the locks
+// are spread over shards, since the threads of a step look up different bodies most of the time.
 class ParticleStore {
 public:
     static ParticleStore& instance();
@@ -26,8 +25,8 @@ public:
                                          const yade::PotentialParticle& shape);
     // As the stand-in has it.
     std::shared_ptr<const Particle> find(const boost::shared_ptr<yade::Shape>& owner, const StandIn& kind);
-    // Held while the lists of a shape are compared or copied here; who sets them while a step may be
-    // going on holds it too (plane_lists.hpp). Nobody may ask for Python's lock while holding it.
+    // Held while the lists of a shape are compared or copied here; code that may set them during a step holds it too
+    // (plane_lists.hpp). No holder may request Python's lock.
     std::mutex& mutexOf(const yade::PotentialParticle& shape) { return shardOf(&shape).mutex; }
     // Particles held now, for tests and curiosity.
     std::size_t size();

@@ -58,9 +58,8 @@ namespace {
 
     // --- Box: k = 0, six planes. Measures: half sizes.
 
-    // Edges and corners of a box are rounded by this share of its least half size: as little as makes no difference to
-    // any contact, and over a thousand times what the contact area needs (pp_contact_area). The faces stay where they
-    // are.
+    // Edges and corners of a box are rounded by this share of its least half size: too little to matter to any contact,
+    // and over a thousand times what the contact area needs (pp_contact_area). The faces stay where they are.
     constexpr double boxRounding = 1e-6;
 
     Measures measuresOfBox(const yade::Shape& shape)

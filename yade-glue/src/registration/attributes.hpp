@@ -13,8 +13,8 @@
 
 namespace potential_particles {
 
-// What numbers of an attribute are none; an empty text where all are finite. From scripts and files: what is not would
-// reach positions of bodies.
+// Non-finite numbers of an attribute; an empty text if all are finite. From scripts and files: they would reach
+// positions of bodies.
 inline std::string notFinite(double value) { return std::isfinite(value) ? "" : (std::ostringstream() << value).str(); }
 inline std::string notFinite(const yade::Vector3r& value)
 {

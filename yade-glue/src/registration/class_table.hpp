@@ -35,7 +35,7 @@ template <class Class> void enterInFactory();
 
 namespace potential_particles {
 
-// Call first in serialize(): Boost itself hands over what it reads, however new, and it would be misread.
+// Call first in serialize(): Boost itself passes newer archives on, and they would be misread.
 template <class Class> void requireReadable(unsigned version)
 {
     constexpr unsigned newest = boost::serialization::version<Class>::value;

@@ -74,8 +74,8 @@ template <class Class, class Value> struct Pointed<Value Class::*> {
     using type = Value;
 };
 
-// Boost archives know no Eigen vector, and teaching them here could contradict what YADE taught
-// them for the same type: its three numbers are written instead.
+// Boost archives know no Eigen vector, and a definition here could contradict that of YADE for the same type: its three
+// numbers are written instead.
 template <class Archive> void archiveAttribute(Archive& archive, const char* name, yade::Vector3r& value)
 {
     const std::string base(name);

@@ -12,7 +12,7 @@
 
 namespace potential_particles {
 
-// Tells the classes of objects apart: what an object is does not change, and its virtual table says it.
+// Identifies the class of an object, which does not change, by its virtual table.
 inline const void* classOf(const yade::Shape& shape) { return *reinterpret_cast<const void* const*>(&shape); }
 
 // `keeper` owns it when the shape itself does not.
@@ -46,7 +46,7 @@ inline const yade::PotentialParticle* potentialParticle(const yade::Shape& shape
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, std::shared_ptr<const Particle>& keeper)
 {
     const yade::Shape& one = *shape;
-    if (typeid(one) == typeid(ConicPotentialParticle)) // most are, and the others are told by comparing names
+    if (typeid(one) == typeid(ConicPotentialParticle)) // most are; others need a comparison of names
         return particleOf(shape, static_cast<const ConicPotentialParticle&>(one), keeper);
     if (const StandIn* kind = standInOf(one))
         keeper = ParticleStore::instance().find(shape, *kind);

@@ -11,9 +11,9 @@
 
 namespace potential_particles {
 
-// The value itself never changes. get() is one load: whoever calls it sees one whole value, and may go on reading that
-// one until the step ends, whatever replaces it meanwhile (retired.hpp). No share of ownership is handed out, which
-// threads would pass to and fro for every pair.
+// The value itself never changes. get() is one load: a caller sees one whole value, and may read it until the step
+// ends, even if it is replaced meanwhile (retired.hpp). No share of ownership is handed out: threads would exchange it
+// for every pair.
 template <class Value> class Published {
 public:
     // Any thread. Null before the first replace().

@@ -44,7 +44,7 @@ def _nearest(here, there, surplus):
 def _reallocate(choose, blocking=True):
     before = set(O.subD.ids)
     _yades_reallocation(choose, blocking)
-    # A body that has changed its worker is there without those of its neighbours that the worker did not know. In mpy
-    # it stays so, and their contacts with it push on one side only, until the collider happens to run again.
+    # A body that has changed its worker lacks there the neighbours that the worker did not know. In mpy it stays so,
+    # and their contacts with it push on one side only, until the collider happens to run again.
     if mpy.comm.allreduce(int(set(O.subD.ids) != before), op=mpy.MPI.MAX):
         mpy.parallelCollide()

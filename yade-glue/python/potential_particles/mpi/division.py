@@ -11,7 +11,7 @@ from .ranks import ranks
 
 
 def divide(ids, axes=(0, 1)):
-    """Gives each worker as many of the bodies `ids` as any other, one less at most, in boxes that lie side by side.
+    """Gives all workers equal numbers of the bodies `ids`, to within one, in boxes that lie side by side.
 
     axes: along which the bodies may be divided. By default not along z: in a pile the upper bodies fall and the lower
     ones carry, and a worker that had only the former would wait for the others. To be called on rank 0. All other

@@ -53,8 +53,8 @@ def launch(main):
     """Calls main() on every rank, and ends the script so that no rank waits for one that has failed.
 
     An exception on any rank ends the run on all of them, with its message and exit status 1 (or that of a SystemExit).
-    SIGINT and SIGUSR1 end nothing by themselves: `interrupted` tells the script. mpirun passes SIGUSR1 on to its ranks
-    and answers SIGINT by ending them; scripts/yade_mpi.sh makes the former of the latter.
+    SIGINT and SIGUSR1 end nothing by themselves: `interrupted` reports them. mpirun passes SIGUSR1 on to its ranks and
+    answers SIGINT by ending them; scripts/yade_mpi.sh passes SIGINT on as SIGUSR1.
     """
     for number in (signal.SIGINT, signal.SIGUSR1):
         signal.signal(number, _ask_to_stop)

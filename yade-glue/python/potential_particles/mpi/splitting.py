@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The first division of a scene, which may have contacts already.
 
-Each worker starts from the whole scene, erases the bodies of others, and is sent those again that come near its own.
-mpy
-loses the contacts between bodies of different ranks on that way, and with them their shear forces: a scene that
-was loaded would go on as another.
+Each worker starts from the whole scene, erases the bodies of others, and receives those near its own again. mpy loses
+the contacts between bodies of different ranks in doing so, and with them their shear forces: a loaded scene would
+continue differently.
 """
 import yade
 

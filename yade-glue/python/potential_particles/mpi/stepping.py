@@ -16,7 +16,7 @@ _told = set()
 
 
 def run(steps, reallocate=10):
-    """So many steps on all ranks; with 0, the scene is divided and no step made. Collective.
+    """Makes `steps` steps on all ranks; with 0, only divides the scene. Collective.
 
     reallocate: after so many runs of the collider, bodies at the borders may move to another worker, so that all have
     as many; 0: never.

@@ -60,8 +60,7 @@ class BlockGen:
         object.__setattr__(self, name, value)
 
     def load(self):
-        """Makes the scene in the place of the present one: four engines, as YADE's BlockGen has them, and the blocks.
-        """
+        """Replaces the present scene: four engines, as in YADE's BlockGen, and the blocks."""
         import yade
         for name, instead in _UNSERVED.items():
             if getattr(self, name):
