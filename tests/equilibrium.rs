@@ -51,6 +51,10 @@ fn cohesion_and_tension() {
     let mut flat = pushed(block(0.2, 0.0, 0.5));
     (flat.contacts[0].cohesion, flat.contacts[0].tension) = (0.7, 10.0);
     BOTH.into_iter().for_each(|flow| close(load_factor(&flat, flow).unwrap().factor, 1.2, 1e-6));
+    // In whatever order its corners come.
+    let joint = &flat.contacts[0];
+    let crossed = [0, 2, 1, 3].map(|i| joint.corners[i]).to_vec();
+    assert!((Contact::new([0, 1], crossed, joint.normal, 0.5).area / joint.area - 1.0).abs() < 1e-14);
     // |t| ≤ (c a + μ W)/F.
     flat.bodies[1].dead.force.x = 0.3;
     BOTH.into_iter().for_each(|flow| close(strength_factor(&flat, flow).unwrap().factor, 1.2 / 0.3, 1e-6));

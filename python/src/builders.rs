@@ -183,10 +183,25 @@ fn mesh(
     if !points.iter().flatten().all(|c| c.is_finite()) {
         return Err(refused(format!("{name}: times scale={scale:?} its points are not finite")));
     }
+    let known = known_to(&points, scale);
     built(py, (rounding, k, r, R), |rounding| {
-        if hull { shapes::hull(&points, rounding) } else { shapes::surface(&points, &triangles, rounding) }
+        shapes::known_hull(&points, Some(&triangles[..]).filter(|_| !hull), known, rounding)
     })
     .map_err(|error| refused(format!("{name}: {}", error.value(py))))
+}
+
+/// How far from its plane four corners may put a face, over the largest coordinate, if each is off by half a unit of
+/// the seventh digit, or of the last digit of single precision, as which files are read.
+const OF_SEVEN_DIGITS: f64 = 4e-6;
+const OF_SINGLE: f64 = 5e-7;
+
+/// The length to which points of a file, times a scale, are known, by their digits.
+fn known_to(points: &[[f64; 3]], scale: f64) -> f64 {
+    let digits =
+        |c: f64| format!("{:e}", c as f32).bytes().take_while(|b| *b != b'e').filter(u8::is_ascii_digit).count();
+    let is_short = points.iter().take(1000).flatten().all(|c| digits(c / scale) <= 7);
+    let largest = points.iter().flatten().fold(0.0_f64, |most, c| most.max(c.abs()));
+    largest * if is_short { OF_SEVEN_DIGITS } else { OF_SINGLE }
 }
 
 type Surface = (Vec<[f64; 3]>, Vec<[u32; 3]>);

@@ -113,6 +113,33 @@ class Builders(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, name):
                     builders.mesh(Path(folder, name))
 
+    def test_files_are_known_to_their_digits(self):
+        """A turned cube, as far from the origin as its digits allow: six faces, or a refusal."""
+        corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+        quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+        triangles = [three for a, b, c, d in quads for three in ((a, b, c), (a, c, d))]
+        turn = pp.Pose((0, 0, 0), (0.8, 0.3, -0.4, 0.2)).rotation
+        exact = builders.cuboid((1, 1, 1), k=0).volume
+        with tempfile.TemporaryDirectory() as folder:
+            for offset in (0, 1, 100, 1e4, 1e7):
+                points = corners @ turn.T + offset * np.array((0.7, 0.9, 0.6))
+                binary, text = Path(folder, "binary.stl"), Path(folder, "text.stl")
+                facets = (struct.pack("<12fH", 0, 0, 0, *points[list(three)].ravel(), 0) for three in triangles)
+                binary.write_bytes(bytes(80) + struct.pack("<I", 12) + b"".join(facets))
+                lines = ("facet normal 0 0 0\nouter loop\n" + "".join("vertex %.6g %.6g %.6g\n" % tuple(points[i])
+                                                                    for i in three) + "endloop\nendfacet\n"
+                         for three in triangles)
+                text.write_text("solid a\n" + "".join(lines) + "endsolid a\n")
+                for file, far in ((binary, 1e7), (text, 1e5)):
+                    if offset >= far:
+                        with self.assertRaises(ValueError, msg=f"{file} {offset}"):
+                            builders.mesh(file, k=0)
+                        continue
+                    for hull in (False, True):
+                        shape = builders.mesh(file, hull=hull, k=0)
+                        self.assertEqual(len(shape.particle.planes), 6, f"{file} {offset}")
+                        self.assertAlmostEqual(shape.volume / exact, 1, delta=1e-5 + 1e-5 * offset)
+
     def test_bad_input_is_told(self):
         for make, sentence in [
                 (lambda: builders.cuboid((1, -1, 1)), "edge y=-1.0 must be finite and above 0"),

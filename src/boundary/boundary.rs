@@ -50,6 +50,7 @@ impl Feature {
         [Self::Interior, Self::Edge0, Self::Edge1, Self::Edge2, Self::Vertex0, Self::Vertex1, Self::Vertex2];
 
     /// From its number, 0 to 6.
+    #[cfg(feature = "capi")]
     pub(crate) fn from_number(number: u32) -> Option<Self> {
         Self::ALL.get(number as usize).copied()
     }

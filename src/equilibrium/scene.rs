@@ -52,7 +52,7 @@ impl Body {
 pub struct Contact {
     /// The two bodies, by index.
     pub bodies: [usize; 2],
-    /// Corners, in order: one or more.
+    /// Corners: one or more.
     pub corners: Vec<Vector3<f64>>,
     /// Normal from the first body to the second, of any length.
     pub normal: Vector3<f64>,
@@ -67,10 +67,16 @@ pub struct Contact {
 }
 
 impl Contact {
-    /// A contact with friction alone. The area is that of the polygon of the corners.
+    /// A contact with friction alone. The area is that of the convex polygon of the corners, in whatever order.
     pub fn new(bodies: [usize; 2], corners: Vec<Vector3<f64>>, normal: Vector3<f64>, friction: f64) -> Self {
+        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len().max(1) as f64;
+        let across = normal.cross(&Vector3::ith(normal.iamin(), 1.0));
+        let (across, aside) = (normal.norm() * across, normal.cross(&across));
+        let angle = |at: &Vector3<f64>| aside.dot(&(at - middle)).atan2(across.dot(&(at - middle)));
+        let mut around = corners.clone();
+        around.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
         let doubled: Vector3<f64> =
-            corners.windows(2).map(|pair| (pair[0] - corners[0]).cross(&(pair[1] - corners[0]))).sum();
+            around.windows(2).map(|pair| (pair[0] - around[0]).cross(&(pair[1] - around[0]))).sum();
         let area = 0.5 * doubled.norm();
         Self { bodies, corners, normal, area, friction, cohesion: 0.0, tension: 0.0 }
     }

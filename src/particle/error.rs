@@ -56,7 +56,7 @@ pub enum ParticleError {
     #[error("the {0} vertices enclose no area: give three or more that do not lie on one line")]
     FlatVertices(usize),
     #[error(
-        "rounding radius r={r:?} is too large for these vertices: it must be below {limit:?}, the least distance of a side from the centroid"
+        "rounding radius r={r:?} is too large: it must be below {limit:?}, the least distance of a face or side from the centroid"
     )]
     RoundingTooLarge { r: f64, limit: f64 },
     #[error(

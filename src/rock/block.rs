@@ -110,6 +110,10 @@ impl Block {
     /// As of [`Particle::new`]: r that is not above 0, or not below the distance of the nearest face from the centroid.
     pub fn particle(&self, r: f64) -> Result<Particle, ParticleError> {
         let planes: Vec<Plane> = self.faces.iter().map(|face| self.about_centroid(face, r)).collect();
+        let limit = planes.iter().map(|plane| plane.offset + r).fold(f64::INFINITY, f64::min);
+        if r >= limit {
+            return Err(ParticleError::RoundingTooLarge { r, limit });
+        }
         Particle::new(&planes, r, 0.0, 1.0)
     }
 

@@ -98,6 +98,10 @@ fn faces_agree_with_their_partners_and_blocks_with_their_planes() {
     assert!(areas.len() == 12 && areas.values().all(|sum: &f64| sum.abs() < 1e-12), "{areas:?}");
     let largest = mass.blocks.iter().max_by(|a, b| a.volume.total_cmp(&b.volume)).unwrap();
     let r = 1e-4 * largest.volume.cbrt();
+    let limit = largest.faces.iter().map(|face| face.plane.offset - face.plane.normal.dot(&largest.centroid));
+    let limit = limit.fold(f64::INFINITY, f64::min);
+    let refusal = largest.particle(limit).unwrap_err();
+    assert!(matches!(refusal, crate::ParticleError::RoundingTooLarge { limit: of, .. } if of == limit), "{refusal}");
     let of_particle = largest.particle(r).unwrap().mass_properties(1e-6).unwrap().volume;
     assert!(of_particle <= largest.volume * (1.0 + 1e-6) && of_particle > (1.0 - 1e-3) * largest.volume);
 }

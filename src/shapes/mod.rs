@@ -39,7 +39,7 @@ mod surface;
 
 pub use error::ShapeError;
 pub use rounding::{Rounding, Shape};
-pub use solids::{cuboid, cylinder, frustum, half_spaces, hull, prism, regular_solid, sphere, surface};
+pub use solids::{cuboid, cylinder, frustum, half_spaces, hull, known_hull, prism, regular_solid, sphere, surface};
 #[doc(hidden)]
 pub use solids::{sharp_hull, sharp_planes};
 // The sharp bodies of the C interface.

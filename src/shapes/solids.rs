@@ -35,6 +35,24 @@ pub fn surface(points: &[[f64; 3]], triangles: &[[u32; 3]], rounding: &Rounding)
     rounded(&SharpBody::of_surface(points, triangles, 0.0)?, rounding)
 }
 
+/// Of points that are known to a length, as those of a file are by their digits: faces that are coplanar within it are
+/// one. Of the convex hull, which triangles, if given, must be the surface of.
+///
+/// # Errors
+/// Those of [`hull`] or [`surface`]; points that are flat within that length.
+pub fn known_hull(
+    points: &[[f64; 3]],
+    triangles: Option<&[[u32; 3]]>,
+    known: f64,
+    rounding: &Rounding,
+) -> Result<Shape, ShapeError> {
+    let body = match triangles {
+        Some(triangles) => SharpBody::of_surface(points, triangles, known)?,
+        None => SharpBody::of_points(points, known)?,
+    };
+    rounded(&body, rounding)
+}
+
 /// The faces of the hull of points, about their middle: for tests.
 #[doc(hidden)]
 pub fn sharp_hull(points: &[[f64; 3]]) -> Result<(Vector3<f64>, Vec<Plane>), ShapeError> {
