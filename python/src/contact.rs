@@ -55,6 +55,24 @@ impl PyPairState {
 #[pyclass(name = "Contact", module = "potential_particles", frozen)]
 pub struct PyContact(pub Contact);
 
+impl PyContact {
+    /// The contact, unless its branches show that the bodies stood elsewhere.
+    pub fn of(&self, pose_a: &PyPose, pose_b: &PyPose) -> PyResult<&Contact> {
+        let Contact { branch_a, branch_b, .. } = &self.0;
+        let off = (branch_a - branch_b - (pose_b.0.position() - pose_a.0.position())).norm();
+        // NaN where the contact has no geometry.
+        if off > SAME_POSE * (branch_a.norm() + branch_b.norm()) {
+            return Err(refused(format!(
+                "the contact is of other poses: its bodies stood {off:.3e} farther apart or nearer: detect it at these"
+            )));
+        }
+        Ok(&self.0)
+    }
+}
+
+/// Rounding of branches, over their length.
+const SAME_POSE: f64 = 1e-9;
+
 /// Getters of numbers and of vectors.
 macro_rules! getters {
     ($class:ident: $($number:ident),*; $($vector:ident),*) => {
@@ -222,7 +240,7 @@ fn closest_point(
 /// when separated.
 ///
 /// It is in closed form; tolerance, in [1e-12, 0.1], counts where rounding forbids that. ValueError: the contact is of
-/// other bodies or poses.
+/// other positions, or its point outside of a body.
 #[pyfunction]
 #[pyo3(signature = (a, pose_a, b, pose_b, contact, tolerance=1e-6))]
 fn contact_area(
@@ -239,7 +257,7 @@ fn contact_area(
     if contact.0.kind == Kind::Separated {
         return Ok(0.0);
     }
-    let area = Section::from(&contact.0).area(&a.0, &pose_a.0, &b.0, &pose_b.0, tolerance);
+    let area = Section::from(contact.of(pose_a, pose_b)?).area(&a.0, &pose_a.0, &b.0, &pose_b.0, tolerance);
     area.ok_or_else(|| {
         refused("the contact point lies outside a particle: take the contact of the same bodies and poses")
     })

@@ -81,6 +81,9 @@ class OnePair(unittest.TestCase):
         poses = pp.Pose((0, 0, 0)), pp.Pose((1.2, 0, 0))
         contact = pp.detect(ball, poses[0], ball, poses[1])
         self.assertAlmostEqual(pp.contact_area(ball, poses[0], ball, poses[1], contact), 0.64 * np.pi, delta=1e-10)
+        for ask in (pp.contact_area, pp.patch_of_contact, pp.contact_derivatives):
+            with self.assertRaisesRegex(ValueError, "the contact is of other poses"):
+                ask(ball, poses[0], ball, pp.Pose((50, 0, 0)), contact)
         patch = pp.patch_of_contact(ball, poses[0], ball, poses[1], contact, tolerance=1e-8)
         # Equal balls meet in the flat disc of the section, and s = |x| there: K l times the integral of 1 - s over it.
         rho = np.sqrt(1 - 0.36)
