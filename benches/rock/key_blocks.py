@@ -34,8 +34,9 @@ while len(rows) < CUTS:
     distance, direction, nearer = slope_cuts.judged(mass, one, friction)
     analysis, factor = slope_cuts.limit_analysis(mass, one, friction)
     row = {
-        "seed": seed - 1, "analysis": analysis, "analysis_factor": factor, "mode": one.mode, "factor": one.factor, "moves": one.moves, "distance": distance,
-        "nearer": nearer, "agrees": slope_cuts.agrees(one, distance, direction)
+        "seed": seed - 1, "mode": one.mode, "factor": one.factor, "moves": one.moves, "distance": distance,
+        "analysis": analysis, "analysis_factor": factor, "nearer": nearer,
+        "agrees": slope_cuts.agrees(one, distance, direction)
     }
     if len(rows) < TURNS:
         row["distance_with_turns"] = slope_cuts.moved(mass, one, friction, turns=True)[0]

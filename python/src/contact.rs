@@ -56,14 +56,14 @@ impl PyPairState {
 pub struct PyContact(pub Contact);
 
 impl PyContact {
-    /// The contact, unless its branches show that the bodies stood elsewhere.
-    pub fn of(&self, pose_a: &PyPose, pose_b: &PyPose) -> PyResult<&Contact> {
+    /// The contact, unless its branches belong to another relative position of the bodies.
+    pub fn at(&self, pose_a: &PyPose, pose_b: &PyPose) -> PyResult<&Contact> {
         let Contact { branch_a, branch_b, .. } = &self.0;
         let off = (branch_a - branch_b - (pose_b.0.position() - pose_a.0.position())).norm();
         // NaN where the contact has no geometry.
         if off > SAME_POSE * (branch_a.norm() + branch_b.norm()) {
             return Err(refused(format!(
-                "the contact is of other poses: its bodies stood {off:.3e} farther apart or nearer: detect it at these"
+                "the contact is of other poses: one body has moved by {off:.3e} against the other since: detect it anew"
             )));
         }
         Ok(&self.0)
@@ -257,7 +257,7 @@ fn contact_area(
     if contact.0.kind == Kind::Separated {
         return Ok(0.0);
     }
-    let area = Section::from(contact.of(pose_a, pose_b)?).area(&a.0, &pose_a.0, &b.0, &pose_b.0, tolerance);
+    let area = Section::from(contact.at(pose_a, pose_b)?).area(&a.0, &pose_a.0, &b.0, &pose_b.0, tolerance);
     area.ok_or_else(|| {
         refused("the contact point lies outside a particle: take the contact of the same bodies and poses")
     })

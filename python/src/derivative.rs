@@ -181,7 +181,7 @@ fn of_pair(
     contact: &PyContact,
     settings: Option<&PySettings>,
 ) -> PyResult<PyContactDerivatives> {
-    contact_derivatives(&a.0, &pose_a.0, &b.0, &pose_b.0, contact.of(pose_a, pose_b)?, &or_default(settings))
+    contact_derivatives(&a.0, &pose_a.0, &b.0, &pose_b.0, contact.at(pose_a, pose_b)?, &or_default(settings))
         .map(PyContactDerivatives)
         .map_err(of_derivative)
 }
@@ -215,7 +215,7 @@ fn gradient_of_pair(
     let (mut of_a, mut of_b) = (ShapeGradient::zeros(&a.0), ShapeGradient::zeros(&b.0));
     let settings = or_default(settings);
     let shapes = (Some(&mut of_a), Some(&mut of_b));
-    let contact = contact.of(pose_a, pose_b)?;
+    let contact = contact.at(pose_a, pose_b)?;
     let (poses, flags) =
         contact_gradient(&a.0, &pose_a.0, &b.0, &pose_b.0, contact, &settings, &weights, shapes.0, shapes.1)
             .map_err(of_derivative)?;

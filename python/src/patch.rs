@@ -101,7 +101,7 @@ fn of_contact(
     energy: bool,
     stiffness: bool,
 ) -> PyResult<PyPatch> {
-    let contact = contact.of(pose_a, pose_b)?;
+    let contact = contact.at(pose_a, pose_b)?;
     made((tolerance, energy, stiffness), |settings, scratch, points| {
         let visit = |point| points.push(point);
         patch_of_contact(&a.0, &pose_a.0, &b.0, &pose_b.0, contact, settings, scratch, visit)

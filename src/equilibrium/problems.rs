@@ -20,8 +20,9 @@ const SETTLED: f64 = 1e-7;
 const EXCESS: f64 = 1e-5;
 /// Most programs of a sequence. Slopes of 69 blocks and walls of 52 need 16, walls of some 100 more than 40 (measured).
 const MOST: u32 = 200;
-/// After so many programs a factor within this part of itself is taken if the excess, which is reported, is below this.
+/// After so many programs the factor is taken if the last ten agree to this part of it,
 const ROUGHLY: f64 = 1e-5;
+/// and if the excess, which is reported, is below this.
 const ROUGH_EXCESS: f64 = 1e-3;
 /// Largest force that may stay unbalanced on a body, over the largest force.
 const BALANCED: f64 = 1e-6;
@@ -64,9 +65,7 @@ pub struct Equilibrium {
 /// An invalid scene, and a solver that reaches neither forces nor a motion: that does not mean that it falls.
 pub fn stands(scene: &Scene) -> Result<Equilibrium, EquilibriumError> {
     let problem = Problem::new(scene)?;
-    let none = vec![[0.0; 3]; problem.strengths.len()];
-    let near = Near { weight: 1.0, forces: &none };
-    match solve(&problem.assembly, &problem.strengths, Goal::Rest, Some(near))? {
+    match problem.at_rest(&problem.strengths)? {
         Outcome::Solved(solved) => {
             let answer = problem.answer(&solved, 0.0, 0.0, 1)?;
             Ok(Equilibrium { mechanism: Vec::new(), ..answer })
@@ -155,9 +154,7 @@ impl Sequence<'_> {
         let kappa = kappa * (1.0 + EXCESS);
         let reduced = |given: &Strength| Strength { slope: kappa * given.slope, base: kappa * given.base, ..*given };
         let strengths: Vec<_> = self.problem.strengths.iter().map(reduced).collect();
-        let none = vec![[0.0; 3]; strengths.len()];
-        let near = Near { weight: 1.0, forces: &none };
-        match solve(&self.problem.assembly, &strengths, Goal::Rest, Some(near))? {
+        match self.problem.at_rest(&strengths)? {
             Outcome::Solved(solved) => Ok(Ended::Settled(Solved { factor: kappa, ..solved }, 0.0, programs)),
             _ => Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() }),
         }
@@ -197,13 +194,13 @@ impl Sequence<'_> {
                     };
                     // Friction of this κ clamps blocks with forces of any size.
                     if self.flow == Flow::NonDilatant {
-                        dilatancy *= KEPT;
-                    } else {
-                        bracket[1] = last.factor;
-                        last.factor = between(bracket);
-                        if is_closed(bracket) {
-                            return self.clamped(bracket[1], programs);
-                        }
+                        dilatancy = less(dilatancy);
+                        continue;
+                    }
+                    bracket[1] = last.factor;
+                    match inside(bracket) {
+                        Some(kappa) => last.factor = kappa,
+                        None => return self.clamped(bracket[1], programs),
                     }
                     continue;
                 }
@@ -223,16 +220,15 @@ impl Sequence<'_> {
             dilatancy = match dilatancy {
                 0.0 if last.is_none() => 1.0,
                 1.0 if !settled => 1.0,
-                _ if KEPT * dilatancy > NO_DILATANCY => KEPT * dilatancy,
-                _ => 0.0,
+                _ => less(dilatancy),
             };
             factors.push(solved.factor);
             beyond = excess;
             last = Some(solved);
             if let Some(last) = last.as_mut().filter(|last| dilatancy == 1.0 && last.factor >= bracket[1]) {
-                last.factor = between(bracket);
-                if is_closed(bracket) {
-                    return self.clamped(bracket[1], programs);
+                match inside(bracket) {
+                    Some(kappa) => last.factor = kappa,
+                    None => return self.clamped(bracket[1], programs),
                 }
             }
         }
@@ -247,13 +243,15 @@ impl Sequence<'_> {
     }
 }
 
-/// A number between two positive ones, or below the second where the first is 0.
-fn between([low, high]: [f64; 2]) -> f64 {
-    if low > 0.0 { (low * high).sqrt() } else { KEPT * high }
+/// The dilatancy of the next program.
+fn less(dilatancy: f64) -> f64 {
+    if KEPT * dilatancy > NO_DILATANCY { KEPT * dilatancy } else { 0.0 }
 }
 
-fn is_closed([low, high]: [f64; 2]) -> bool {
-    high - low <= EXCESS * high || high <= SETTLED
+/// A κ inside the bracket; `None` once its ends agree.
+fn inside([low, high]: [f64; 2]) -> Option<f64> {
+    let is_closed = high - low <= EXCESS * high || high <= SETTLED;
+    (!is_closed).then(|| if low > 0.0 { (low * high).sqrt() } else { KEPT * high })
 }
 
 /// A scene in its own units, and its strength as given.
@@ -273,6 +271,12 @@ impl Problem {
         };
         let strengths = assembly.corners.iter().map(strength).collect();
         Ok(Self { assembly, strengths })
+    }
+
+    /// The forces of the least norm that keep all bodies at rest with these strengths.
+    fn at_rest(&self, strengths: &[Strength]) -> Result<Outcome, EquilibriumError> {
+        let none = vec![[0.0; 3]; strengths.len()];
+        solve(&self.assembly, strengths, Goal::Rest, Some(Near { weight: 1.0, forces: &none }))
     }
 
     /// The largest friction beyond `part` of its strength.

@@ -24,7 +24,7 @@ pub fn half_spaces(planes: &[Plane], rounding: &Rounding) -> Result<Shape, Shape
 /// # Errors
 /// Points that are not finite, fewer than four, or all in a plane; a rounding out of range.
 pub fn hull(points: &[[f64; 3]], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    rounded(&SharpBody::of_points(points, 0.0)?, rounding)
+    known_hull(points, None, 0.0, rounding)
 }
 
 /// Of a closed convex surface of triangles, three indices of points each, in any sense of rotation.
@@ -32,7 +32,7 @@ pub fn hull(points: &[[f64; 3]], rounding: &Rounding) -> Result<Shape, ShapeErro
 /// # Errors
 /// Those of [`hull`]; a surface that is open, not convex or crosses itself, of which [`hull`] makes the convex hull.
 pub fn surface(points: &[[f64; 3]], triangles: &[[u32; 3]], rounding: &Rounding) -> Result<Shape, ShapeError> {
-    rounded(&SharpBody::of_surface(points, triangles, 0.0)?, rounding)
+    known_hull(points, Some(triangles), 0.0, rounding)
 }
 
 /// Of points that are known to a length, as those of a file are by their digits: faces that are coplanar within it are

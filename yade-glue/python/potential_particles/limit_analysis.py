@@ -195,11 +195,8 @@ def _polygon(contact):
     bounds = [row for body, sense in zip(pair, (1, -1)) for row in _bounds(body, sense * normal)]
     corners = np.array([point])
     if all(one is not None for one in bounds):
-        across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-        across /= np.linalg.norm(across)
-        frame = np.stack([across, np.cross(normal, across)])
         reach = 2.0 * max((abs(offset - n @ point) for n, offset in bounds), default=0.0) or 1.0
-        flat = clipped(frame, point, bounds, 10.0 * reach)
+        flat = clipped(normal, point, bounds, 10.0 * reach)
         corners = flat if len(flat) else corners
     area = 0.5 * np.linalg.norm(np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0))
     return tuple(_owner(body).id for body in pair), contact, corners, float(area)
@@ -235,8 +232,11 @@ def _bounds(body, outwards):
     return [None]
 
 
-def clipped(frame, point, bounds, reach):
-    """The polygon of a plane, through a point and along both rows of the frame, within half-spaces: (n, 3)."""
+def clipped(normal, point, bounds, reach):
+    """The polygon of the plane through a point across a normal within half-spaces, at most `reach` wide: (n, 3)."""
+    across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
+    across /= np.linalg.norm(across)
+    frame = np.stack([across, np.cross(normal, across)])
     polygon = reach * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
     for n, offset in bounds:
         heights = polygon @ (frame @ n) + (n @ point - offset)

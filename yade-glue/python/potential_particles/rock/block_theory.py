@@ -92,8 +92,7 @@ def key_blocks(mass, free, friction=30.0, cohesion=0.0, density=2600.0, gravity=
     pressed, touching = _areas(mass, gone)
     outer = (mass.faces["of"] == OF_DOMAIN) & ~np.isin(mass.faces["index"].astype(int), free)
     found = []
-    order = np.argsort(mass.pieces, kind="stable")
-    for blocks in np.split(order, np.flatnonzero(np.diff(mass.pieces[order])) + 1):
+    for blocks in mass.blocks_of_pieces:
         if not len(blocks) or gone[blocks].all():
             continue
         faces = np.concatenate([

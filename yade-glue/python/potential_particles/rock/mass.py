@@ -136,6 +136,12 @@ class RockMass:
         return connected_components(graph, directed=False)[1]
 
     @property
+    def blocks_of_pieces(self):
+        """The numbers of the blocks of each piece, in the order of pieces."""
+        order = np.argsort(self.pieces, kind="stable")
+        return np.split(order, np.flatnonzero(np.diff(self.pieces[order])) + 1)
+
+    @property
     def _partner_blocks(self):
         return self.faces["block"].astype(int)[self.partners["faces"].astype(int).T]
 

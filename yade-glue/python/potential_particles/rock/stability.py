@@ -15,12 +15,13 @@ from .scene import loads_of, marked
 
 def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0, tension=0.0, density=2600.0,
                    gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False):
-    """Whether forces on the faces of a RockMass can hold its blocks: an Equilibrium of its pieces, as
-    potential_particles.limit_analysis() gives it of a scene; a piece goes by the number of its first block.
+    """Whether forces on the faces of a RockMass can hold its blocks: an Equilibrium, as of
+    potential_particles.limit_analysis(). Its bodies are the pieces of the mass, named by their first block.
 
-    held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES); removed: those that are
-    taken out. question, push, dilatant: as there. friction, density, gravity and loads: as of key_blocks(). cohesion,
-    tension: strength of joints, force per area, numbers or dicts by entries of the `joints` of slice().
+    held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES). removed: blocks that are
+    taken out. question, push, dilatant: as of potential_particles.limit_analysis(). friction, density, gravity, loads:
+    as of key_blocks(). cohesion, tension: strength of joints, force per area, numbers or dicts by entries of the
+    `joints` of slice().
     """
     asked(question)
     friction = by_set(friction, "friction", 89.9)
@@ -49,10 +50,11 @@ def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0,
 def _pieces(mass, gone):
     """Blocks of each piece that is there, and for each block the number of its piece, -1 without one."""
     place, numbers = np.full(len(mass), -1), []
-    for piece in np.unique(mass.pieces[~gone]):
-        blocks = np.flatnonzero((mass.pieces == piece) & ~gone)
-        place[blocks] = len(numbers)
-        numbers.append([int(one) for one in blocks])
+    for blocks in mass.blocks_of_pieces:
+        blocks = blocks[~gone[blocks]]
+        if len(blocks):
+            place[blocks] = len(numbers)
+            numbers.append([int(one) for one in blocks])
     return numbers, place
 
 
@@ -78,11 +80,10 @@ def _shared(mass, faces):
         along = np.roll(corners, -1, axis=0) - corners
         outwards = np.cross(along, mass.faces["plane"][face, :3])
         lengths = np.linalg.norm(outwards, axis=1)
-        bounds += [(out / length, out @ at / length) for out, length, at in zip(outwards, lengths, corners) if length > 0]
-    across = np.cross(normal, np.eye(3)[np.abs(normal).argmin()])
-    across /= np.linalg.norm(across)
+        rows = zip(outwards, lengths, corners)
+        bounds += [(out / length, out @ at / length) for out, length, at in rows if length > 0]
     corners = mass.outline(faces[0])
     middle = corners.mean(axis=0)
     reach = 2.0 * np.linalg.norm(corners - middle, axis=1).max()
-    polygon = clipped(np.stack([across, np.cross(normal, across)]), middle, bounds, reach)
+    polygon = clipped(normal, middle, bounds, reach)
     return polygon if len(polygon) else middle[None]
