@@ -21,42 +21,46 @@ class Shape:
     def pose(self) -> Pose: ...
 
 
-def half_spaces(planes: ArrayLike, *, rounding: float = 0.05, k: float = 0.02, r: Optional[float] = None,
+def half_spaces(planes: ArrayLike, *, rounding: Optional[float] = None, k: float = 0.02, r: Optional[float] = None,
                 R: Optional[float] = None) -> Shape:
     ...
 
 
-def hull(points: ArrayLike, *, rounding: float = 0.05, k: float = 0.02, r: Optional[float] = None,
+def hull(points: ArrayLike, *, known: float = 0.0, rounding: Optional[float] = None, k: float = 0.02,
+         r: Optional[float] = None, R: Optional[float] = None) -> Shape:
+    ...
+
+
+def surface(points: ArrayLike, triangles: ArrayLike, *, known: float = 0.0, rounding: Optional[float] = None,
+            k: float = 0.02, r: Optional[float] = None, R: Optional[float] = None) -> Shape:
+    ...
+
+
+def mesh(file: Union[str, os.PathLike[str]], *, hull: bool = False, scale: float = 1.0,
+         rounding: Optional[float] = None, k: float = 0.02, r: Optional[float] = None,
          R: Optional[float] = None) -> Shape:
     ...
 
 
-def surface(points: ArrayLike, triangles: ArrayLike, *, rounding: float = 0.05, k: float = 0.02,
-            r: Optional[float] = None, R: Optional[float] = None) -> Shape:
-    ...
-
-
-def mesh(file: Union[str, os.PathLike[str]], *, hull: bool = False, scale: float = 1.0, rounding: float = 0.05,
-         k: float = 0.02, r: Optional[float] = None, R: Optional[float] = None) -> Shape:
-    ...
-
-
-def cuboid(edges: ArrayLike, *, rounding: float = 0.05, k: float = 0.02, r: Optional[float] = None,
+def cuboid(edges: ArrayLike, *, rounding: Optional[float] = None, k: float = 0.02, r: Optional[float] = None,
            R: Optional[float] = None) -> Shape:
     ...
 
 
 def prism(sides: int = 6, radius: float = 0.5, height: float = 1.0, top_radius: Optional[float] = None, *,
-          rounding: float = 0.05, k: float = 0.02, r: Optional[float] = None, R: Optional[float] = None) -> Shape:
+          rounding: Optional[float] = None, k: float = 0.02, r: Optional[float] = None,
+          R: Optional[float] = None) -> Shape:
     ...
 
 
-def cylinder(radius: float = 0.5, height: float = 1.0, sides: int = 32, *, rounding: float = 0.05, k: float = 0.02,
-             r: Optional[float] = None, R: Optional[float] = None) -> Shape:
+def cylinder(radius: float = 0.5, height: float = 1.0, sides: int = 32, *, rounding: Optional[float] = None,
+             k: float = 0.02, r: Optional[float] = None, R: Optional[float] = None) -> Shape:
     ...
 
 
-def regular_solid(faces: int, edge: float = 1.0, *, rounding: float = 0.05, k: float = 0.02, r: Optional[float] = None,
-                  R: Optional[float] = None) -> Shape:
+def regular_solid(faces: int, edge: float = 1.0, *, rounding: Optional[float] = None, k: float = 0.02,
+                  r: Optional[float] = None, R: Optional[float] = None) -> Shape:
     ...
+
+
 def sphere(radius: float) -> Shape: ...

@@ -2,6 +2,7 @@
 
 use crate::arrays::{rows, to_rows, vector};
 use crate::errors::refused;
+use crate::pickles::pickled;
 use crate::slicing::PyRockMass;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::equilibrium::{self as library, Body, Contact, Equilibrium, EquilibriumError, Flow};
@@ -197,6 +198,8 @@ impl PyScene {
     }
 }
 
+pickled!(PyScene: Scene);
+
 /// Forces in equilibrium and the motion at the limit.
 #[pyclass(name = "Equilibrium", module = "potential_particles.equilibrium", frozen)]
 pub struct PyEquilibrium(Equilibrium);
@@ -252,6 +255,8 @@ impl PyEquilibrium {
         format!("<Equilibrium stands={stands} factor={factor:.6}, {programs} programs>")
     }
 }
+
+pickled!(PyEquilibrium: Equilibrium);
 
 pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
     let module = PyModule::new(parent.py(), "_equilibrium")?;

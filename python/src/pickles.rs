@@ -30,7 +30,7 @@ macro_rules! pickled {
         #[pymethods]
         impl $class {
             fn __reduce__<'py>(object: &Bound<'py, Self>) -> PyResult<$crate::pickles::Reduced<'py>> {
-                let $object = object.get();
+                let $object = object.borrow();
                 $crate::pickles::reduced(object.as_any(), &$to)
             }
 

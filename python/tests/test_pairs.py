@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 import potential_particles as pp
-from potential_particles import builders, planar, slicing
+from potential_particles import builders, equilibrium, planar, slicing
 
 BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
 
@@ -307,13 +307,14 @@ class Kept(unittest.TestCase):
         joints = slicing.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9,
                                    fisher=40) + [slicing.Joint((0, 1, 2), 50, 60, radius=2.0)]
         mass = slicing.slice(BOX, joints)
+        scene = equilibrium.Scene.of_rock(mass, (0, 0, -1), held=[0, 1], friction=0.9)
         for one in [
                 contact, apart, flat, patch,
                 pp.closest_point(body, poses[0], body, poses[1], "a"),
                 body.mass_properties(),
                 body.mesh(0.01), in_plane,
                 planar.patch_of_contact(square, places[0], square, places[1], in_plane),
-                square.area_properties(), shape, *joints, mass, *mass.blocks[:3],
+                square.area_properties(), shape, *joints, mass, *mass.blocks[:3], scene, scene.stands(),
                 pp.contact_derivatives(body, poses[0], body, poses[1], contact),
                 pp.contact_gradient(body, poses[0], body, poses[1], contact, overlap=1.0),
                 pp.boundary_gradient(body, poses[0], flat, overlap=1.0)

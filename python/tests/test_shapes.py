@@ -113,6 +113,44 @@ class Builders(unittest.TestCase):
                 with self.assertRaisesRegex(ValueError, name):
                     builders.mesh(Path(folder, name))
 
+    def test_dialects_of_files(self):
+        """What other programs write: a wedge, in letters, line ends and bytes of all kinds."""
+        points = [(0, 0, 0), (2, 0, 0), (0, 1, 0), (0, 0, 3), (2, 0, 3), (0, 1, 3)]
+        faces = [(0, 2, 1), (3, 4, 5), (0, 1, 4, 3), (1, 2, 5, 4), (2, 0, 3, 5)]
+        obj = "".join("v %g %g %g\n" % p for p in points) + "".join("f " + " ".join(str(i + 1) for i in f) + "\n"
+                                                                   for f in faces)
+        fans = [(f[0], f[i], f[i + 1]) for f in faces for i in range(1, len(f) - 1)]
+        stl = "solid wedge\n" + "".join("facet normal 0 0 0\nouter loop\n" + "".join("vertex %g %g %g\n" % points[i]
+                                                                                     for i in f) +
+                                        "endloop\nendfacet\n" for f in fans) + "endsolid wedge\n"
+        texts = [("a.obj", obj.encode()), ("b.obj", b"# caf\xe9 25 \xb0C\n" + obj.encode()),
+                 ("c.OBJ", obj.replace("f 1 2", "f 1 \\\n2").replace("\n", "\r\n").encode()),
+                 ("d.obj", b"\xef\xbb\xbf" + obj.encode()), ("e.stl", stl.encode()), ("f.STL", stl.upper().encode()),
+                 ("g.stl", stl.replace("\n", "\r").encode()), ("h.stl", stl.replace(" 1 ", " 1.00e+0 ").encode())]
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in texts:
+                Path(folder, name).write_bytes(text)
+                shape = builders.mesh(Path(folder, name), rounding=1e-4, k=0)
+                self.assertEqual(len(shape.particle.planes), 5, name)
+                self.assertAlmostEqual(shape.volume, 3.0, delta=1e-3)
+            short = bytes(80) + struct.pack("<I", 9) + bytes(50 * 4)
+            beyond, nan = obj.replace("f 1 3 2", "f 1 3 20"), obj.replace("v 2 0 3", "v 2 0 nan")
+            for name, text, words in [("i.stl", short, "states 9 triangles.* hold 4"),
+                                      ("j.obj", beyond.encode(), "names v 20, and there are 6"),
+                                      ("k.obj", nan.encode(), "not finite"), ("l.stl", stl.encode("utf-16"), "UTF-16"),
+                                      ("m.gts", b"", r"\.stl .* \.obj")]:
+                Path(folder, name).write_bytes(text)
+                with self.assertRaisesRegex(ValueError, f"{name}.*{words}"):
+                    builders.mesh(Path(folder, name))
+
+    def test_points_are_known_to_a_length(self):
+        corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
+        rough = corners + 1e-5 * np.random.default_rng(7).uniform(-1, 1, (8, 3))
+        self.assertGreater(len(builders.hull(rough).particle.planes), 6)
+        known = builders.hull(rough, known=5e-5)
+        self.assertEqual(len(known.particle.planes), 6)
+        self.assertAlmostEqual(known.volume / builders.hull(corners).volume, 1, delta=1e-4)
+
     def test_files_are_known_to_their_digits(self):
         """A turned cube, as far from the origin as its digits allow: six faces, or a refusal."""
         corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)], float)
@@ -146,6 +184,9 @@ class Builders(unittest.TestCase):
                 (lambda: builders.cuboid((1, 1, 1), rounding=0.6), "rounding=0.6 must be a share of the size"),
                 (lambda: builders.cuboid((1, 1, 1), r=0.6), "r=0.6 is a length and must lie between 0 and 0.5"),
                 (lambda: builders.regular_solid(7), "4, 6, 8, 12 or 20"),
+                (lambda: builders.cuboid((1, 1, 1), rounding=0.1, r=0.1), "rounding=0.1 and r=0.1 both"),
+                (lambda: builders.prism(-6), "sides=-6 must not be negative"),
+                (lambda: builders.hull([(0, 0, 0)], known=-1e-9), "known=-1e-9 must be finite and at least 0"),
                 (lambda: builders.prism(2), "sides=2 must lie between 3 and 65534"),
                 (lambda: builders.cylinder(sides=10**12), "sides=1000000000000 must lie"),
                 (lambda: builders.hull([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), "flat"),
@@ -218,7 +259,7 @@ class Package(unittest.TestCase):
                     told[node.name] = node
                 elif isinstance(node, ast.AnnAssign):
                     told[node.target.id] = node
-            there = {one for one in dir(module) if not one.startswith("_")}
+            there = {one for one in getattr(module, "__all__", dir(module)) if not one.startswith("_")}
             self.assertEqual(set(told), there, name)
             for one, node in told.items():
                 if isinstance(node, ast.ClassDef) and one != "ContactError":

@@ -39,6 +39,7 @@ pub enum Flow {
 
 /// Forces in equilibrium, and the motion at the limit.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Equilibrium {
     /// Whether there are forces in equilibrium, for a load factor or a strength factor: for any factor.
     pub stands: bool,

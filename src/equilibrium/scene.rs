@@ -5,6 +5,7 @@ use nalgebra::Vector3;
 
 /// A force and its torque about the centre of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Load {
     /// Force.
     pub force: Vector3<f64>,
@@ -24,6 +25,7 @@ impl Load {
 
 /// A rigid body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Body {
     /// Its centre of mass; torques and velocities are about it.
     pub centre: Vector3<f64>,
@@ -49,6 +51,7 @@ impl Body {
 
 /// A polygon, a line or a point on which two bodies touch, and its strength.
 #[derive(Clone, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Contact {
     /// The two bodies, by index.
     pub bodies: [usize; 2],
@@ -84,6 +87,7 @@ impl Contact {
 
 /// Bodies and their contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Scene {
     /// The bodies.
     pub bodies: Vec<Body>,
@@ -93,6 +97,7 @@ pub struct Scene {
 
 /// Velocity of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Velocity {
     /// Of its centre.
     pub linear: Vector3<f64>,

@@ -145,7 +145,7 @@ for hull_too in (False, True):
                  "points are flat: all lie in one plane")
 
 # What cannot be read.
-for path, words in [(os.path.join(folder, "none.stl"), "is no file"), (folder, "is no file"),
+for path, words in [(os.path.join(folder, "none.stl"), "no such file"), (folder, "no such file"),
                     (text("mesh.step", "x"), "files that can be read"), (text("empty.stl", ""), "empty.stl"),
                     (text("empty.obj", ""), "empty.obj"), (text("empty.gts", ""), "empty.gts"),
                     (text("words.stl", "these are no triangles"), "words.stl"),

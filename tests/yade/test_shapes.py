@@ -170,6 +170,7 @@ for action, words in [(lambda: shapes.sphere(-1), "radius=-1"), (lambda: shapes.
                       (lambda: shapes.cylinder(0), "radius=0"), (lambda: shapes.platonic_solid(5), "faces=5"),
                       (lambda: shapes.platonic_solid(8, edge=nan), "edge=nan"),
                       (lambda: shapes.random_rock(-1), "seed"),
+                      (lambda: shapes.cuboid(rounding=0.1, r=0.1), "rounding=0.1 and r=0.1 both give"),
                       (lambda: shapes.random_rock(1, elongation=0), "elongation=0"),
                       (lambda: shapes.random_rock(1, flatness=2), "flatness=2"),
                       (lambda: shapes.random_rock(1, faces=4), "faces"),

@@ -3,18 +3,13 @@
 import os
 
 import numpy as np
-from . import fitting
+from . import fitting, mesh_text
 from .arguments import bearable, positive
 from .gts_file import read_gts
-from .mesh_text import read_obj, read_stl
 from .polyhedron import Polyhedron
 from .rounding import SPHERICITY, Rounding
 
-# How far from its plane four corners may put a face, over the largest coordinate, if each is off by half a unit of the
-# seventh digit, 5e-7 at most, or of the last digit of single precision, 6e-8.
-OF_SEVEN_DIGITS, OF_SINGLE = 4e-6, 5e-7
-
-READABLE = ".stl (binary or text), .obj, .gts"
+READERS = {**mesh_text.READERS, ".gts": read_gts}
 
 
 def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, name=None, planes=None, error=None, *,
@@ -31,7 +26,7 @@ def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, 
     """
     scale = positive(scale, "scale")
     points, triangles = read(file)
-    known = known_to(points)
+    known = mesh_text.known_to(points)
     try:
         # With the numbers of the file, which the errors name.
         surface = Polyhedron.of_points(points, known) if hull else Polyhedron.of_surface(points, triangles, known)
@@ -45,14 +40,6 @@ def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, 
     shape = fitting.of_surface(surface, samples, volume_within(points, triangles), Rounding(rounding, k, r, R), name,
                                planes, error)
     return fitting.warn_of_volume(shape, f"{file}")
-
-
-def known_to(points):
-    """The length to which points of a file are known, by their digits."""
-    some = points[:1000].ravel()
-    is_short = all(float(f"{one:.7g}") == one for one in some)
-    of_digits = OF_SEVEN_DIGITS if is_short else OF_SINGLE if np.array_equal(some, some.astype(np.float32)) else 0.0
-    return of_digits * float(np.abs(points).max())
 
 
 def volume_within(points, triangles):
@@ -69,22 +56,13 @@ def read(file):
     """Points (n, 3) and triangles (m, 3), numbers of points, of a file; equal points are one. ValueError if it holds
     none.
     """
-    file = os.fspath(file)
-    if not os.path.isfile(file):
-        raise ValueError(f"{file} is no file")
-    kind = os.path.splitext(file)[1].lower()
-    readers = {".stl": read_stl, ".obj": read_obj, ".gts": read_gts}
-    if kind not in readers:
-        raise ValueError(f"{file}: files that can be read are {READABLE}")
-    try:
-        points, polygons = readers[kind](file)
-    except (OSError, ValueError) as error:
-        raise ValueError(f"{file} cannot be read as {kind}: {error}") from None
-    points, triangles = bearable(points, f"{file}: point"), polygons
-    if kind != ".gts" and len(polygons):
-        points, triangles = _once(points, polygons)
+    points, polygons = mesh_text.read(file, READERS, ".stl (binary or text), .obj and .gts")
+    points = bearable(points, f"{file}: point")
+    if os.fspath(file).lower().endswith(".gts"):
+        return points, polygons
+    points, triangles = _once(points, polygons)
     if len(triangles) == 0:
-        raise ValueError(f"{file} holds no triangles: it is empty, or not what its ending says")
+        raise ValueError(f"{file} holds no triangles of three different points")
     return points, triangles
 
 

@@ -4,10 +4,10 @@ import numpy as np
 
 from .arguments import LARGE, positive, whole, within
 from .polyhedron import Polyhedron
-from .rounding import ROUNDING, SPHERICITY, Rounding
+from .rounding import SPHERICITY, Rounding
 
 
-def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, rounding=ROUNDING, k=SPHERICITY,
+def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughness=0.15, rounding=None, k=SPHERICITY,
                 R=None, name=None, *, r=None):
     """A rock of extents L >= I >= S along x, y, z of its builder's frame, the same for the same arguments.
 

@@ -33,6 +33,8 @@ class Rounding(typing.NamedTuple):
 
         ValueError for numbers out of range.
         """
+        if self.r is not None and self.share is not None:
+            raise ValueError(f"rounding={self.share!r} and r={self.r!r} both give the rounding radius: leave out one")
         size, k = positive(size, "size, the diameter of the largest ball inside"), within(self.k, 0.0, 1.0, "k")
         R = None if self.R is None else positive(self.R, "R")
         if self.r is not None or R is not None:

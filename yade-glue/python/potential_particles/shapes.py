@@ -7,7 +7,7 @@
 Every function returns a Shape. What `rounding`, `k`, `r` and `R` do: docs/shapes.md. In short:
 
     rounding  0 to 0.5. How far edges and corners are rounded: r as a share of the *size* of the sharp shape, the
-              diameter of the largest ball that fits in it.
+              diameter of the largest ball that fits in it; by default 0.05.
     r         the same as a length, in its place. Faces stay where they are.
     k         0 <= k <= 1. 0: flat faces; 1: a sphere of radius R; between, faces bulge by about r k/2.
     R         radius of the shadow sphere, a length; by default the distance from the centroid to the farthest corner.
@@ -24,7 +24,7 @@ from .convex_parts import clump_from_mesh
 from .mesh_file import from_mesh
 from .polyhedron import Polyhedron
 from .random_rock import random_rock
-from .rounding import ROUNDING, SPHERICITY, Rounding
+from .rounding import SPHERICITY, Rounding
 from .shape import Fit, Shape
 from .voxels import from_voxels, voxel_image
 
@@ -34,7 +34,7 @@ __all__ = [
 ]
 
 
-def from_planes(planes, rounding=ROUNDING, k=SPHERICITY, R=None, name="planes", *, r=None):
+def from_planes(planes, rounding=None, k=SPHERICITY, R=None, name="planes", *, r=None):
     """Of half-spaces: rows (a, b, c, h), a x + b y + c z <= h inside, (a, b, c) of any length. Faces are where these
     planes are.
 
@@ -71,14 +71,14 @@ def sphere(radius, name="sphere"):
                  centroid=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=R, name=name)
 
 
-def cuboid(edges=(1.0, 1.0, 1.0), rounding=ROUNDING, k=SPHERICITY, R=None, name="cuboid", *, r=None):
+def cuboid(edges=(1.0, 1.0, 1.0), rounding=None, k=SPHERICITY, R=None, name="cuboid", *, r=None):
     """A cuboid about the origin with these edge lengths along x, y, z."""
     half = [0.5 * positive(edge, "edges") for edge in vector(edges, "edges")]
     return from_planes([(*sign * axis, h) for axis, h in zip(np.eye(3), half) for sign in (1.0, -1.0)], rounding, k, R,
                        name, r=r)
 
 
-def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=ROUNDING, k=SPHERICITY, R=None, name="prism", *,
+def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=None, k=SPHERICITY, R=None, name="prism", *,
           r=None):
     """A regular prism along z, its heights from -height/2 to height/2; `radius` is that of the circle within its
     section.
@@ -91,14 +91,14 @@ def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=ROUNDING, k
     return _rounded(Polyhedron.prism(sides, radius, top, height), Rounding(rounding, k, r, R), name)
 
 
-def cylinder(radius=0.5, height=1.0, sides=32, rounding=ROUNDING, k=SPHERICITY, R=None, name="cylinder", *, r=None):
+def cylinder(radius=0.5, height=1.0, sides=32, rounding=None, k=SPHERICITY, R=None, name="cylinder", *, r=None):
     """A cylinder along z as a prism of as many sides, whose section has the area pi radius^2."""
     sides, radius = whole(sides, 3, MOST_PLANES - 2, "sides"), positive(radius, "radius")
     inner = radius * math.sqrt(math.pi / (sides * math.tan(math.pi / sides)))
     return prism(sides, inner, height, None, rounding, k, R, name, r=r)
 
 
-def platonic_solid(faces, edge=1.0, rounding=ROUNDING, k=SPHERICITY, R=None, name=None, *, r=None):
+def platonic_solid(faces, edge=1.0, rounding=None, k=SPHERICITY, R=None, name=None, *, r=None):
     """The regular solid of 4, 6, 8, 12 or 20 faces with this edge length, about the origin."""
     solid = Polyhedron.regular_solid(whole(faces, 0, LARGE, "faces"), positive(edge, "edge"))
     return _rounded(solid, Rounding(rounding, k, r, R), name or f"platonic solid of {faces} faces")

@@ -34,15 +34,15 @@ class Ids(np.ndarray):
         return iter(self.tolist())
 
 
-def bodies(mass, material=None, rounding=0.05, fixed=(), overlap=None, color=None, *, r=None, **more):
+def bodies(mass, material=None, rounding=None, fixed=(), overlap=None, color=None, *, r=None, **more):
     """Appends the blocks of a RockMass to O.bodies; an array (blocks,) of the ids of their bodies, which gives a single
     one as an int.
 
     material: a Material, or the number or label of one in O.materials (None: the last). rounding: of edges and corners,
-    as a share of twice the distance of the nearest face from the centroid, or in its place r, a length for all blocks;
-    faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out, so that
-    neighbours touch from the start: by default 1e-10 of the size of a block, and above rounding. Mass and inertia are
-        those of the sharp blocks, so that masses sum to that of the domain.
+    as a share of twice the distance of the nearest face from the centroid (None: 0.05), or in its place r, a length for
+    all blocks; faces are flat (k = 0) and stay where they are, but for `overlap`, length, by which each is moved out,
+    so that neighbours touch from the start: by default 1e-10 of the size of a block, and above rounding. Mass and
+    inertia are those of the sharp blocks, so that masses sum to that of the domain.
     fixed: blocks that no force moves, as numbers or (blocks,) of bool, as mass.on_domain gives them. Pieces of a block
     that regions parted are a clump, with the mass of their sum, and all fixed where one is. color: one for all, or a
     function of the number of a block; by default a shade for each.
