@@ -12,16 +12,22 @@ const KEPT: f64 = 0.2;
 const NO_DILATANCY: f64 = 1e-4;
 /// Weight of the distance from the forces of the last program, over units of force. Forces are not unique where a
 /// contact has more than three corners, and without this weight they jump from program to program. At the end of the
-/// sequence the distance is 0.
+/// sequence the distance is 0. A strength factor above 1 is small as κ, and with it the weight.
 const NEARNESS: f64 = 1e-3;
+/// Where the factor has turned back, this part of the step before is made towards the forces of a program, and a little
+/// more at each that goes on. Whole steps can go round in circles of two or three states for ever (8 free blocks).
+const SLOWER: f64 = 0.7;
+const FASTER: f64 = 1.1;
 /// A sequence has settled if its factor changes by no more than this part, or than a program is accurate,
 const SETTLED: f64 = 1e-7;
 /// and if no friction exceeds its strength by more than this, over the mean load of a body.
 const EXCESS: f64 = 1e-5;
+/// Programs with full dilatancy after which each halves the bracket of the strength factor.
+const UNTIL_HALVED: u32 = 30;
 /// Most programs of a sequence. Slopes of 69 blocks and walls of 52 need 16, walls of some 100 more than 40 (measured).
 const MOST: u32 = 200;
 /// After so many programs the factor is taken if the last ten agree to this part of it,
-const ROUGHLY: f64 = 1e-5;
+const ROUGHLY: f64 = 1e-4;
 /// and if the excess, which is reported, is below this.
 const ROUGH_EXCESS: f64 = 1e-3;
 /// Largest force that may stay unbalanced on a body, over the largest force.
@@ -153,9 +159,7 @@ impl Sequence<'_> {
             return Err(self.unlimited);
         }
         let kappa = kappa * (1.0 + EXCESS);
-        let reduced = |given: &Strength| Strength { slope: kappa * given.slope, base: kappa * given.base, ..*given };
-        let strengths: Vec<_> = self.problem.strengths.iter().map(reduced).collect();
-        match self.problem.at_rest(&strengths)? {
+        match self.problem.with_part(kappa)? {
             Outcome::Solved(solved) => Ok(Ended::Settled(Solved { factor: kappa, ..solved }, 0.0, programs)),
             _ => Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() }),
         }
@@ -174,38 +178,49 @@ impl Sequence<'_> {
         // With full dilatancy a scene stands at κ if and only if its program has φ ≤ κ, or no least φ: the factor lies
         // between the largest κ with which it does not stand and the least with which it does.
         let mut bracket = [0.0, f64::INFINITY];
-        let (mut factors, mut beyond) = (Vec::new(), f64::INFINITY);
+        let mut factors = Vec::new();
+        let (mut step_before, mut pace) = (0.0, 1.0_f64);
         for programs in 1..=MOST {
             let now = strengths(dilatancy, last.as_ref());
             let near = last.as_ref().filter(|_| dilatancy < 1.0);
-            let near = near.map(|last| Near { weight: NEARNESS, forces: &last.forces });
-            let solved = match solve(&self.problem.assembly, &now, self.goal, near)? {
-                Outcome::Solved(solved) => solved,
-                Outcome::Falls(velocities) if programs == 1 => {
+            let near =
+                near.map(|last| Near { weight: NEARNESS * strength(last.factor).min(1.0), forces: &last.forces });
+            let outcome = solve(&self.problem.assembly, &now, self.goal, near);
+            let solved = match (outcome, last.as_mut().filter(|_| self.goal == Goal::Strength)) {
+                (Ok(Outcome::Solved(solved)), _) => solved,
+                (Ok(Outcome::Falls(velocities)), _) if programs == 1 => {
                     return self.problem.falls(&velocities, &now, programs).map(Ended::Falls);
                 }
                 // Only strength bounded by the last normal forces has failed.
-                Outcome::Falls(_) => {
+                (Ok(Outcome::Falls(_)), _) => {
                     let status = format!("program {programs} of the sequence has no equilibrium");
                     return Err(EquilibriumError::NotConverged { status });
                 }
-                Outcome::Unlimited => {
-                    let Some(last) = last.as_mut().filter(|_| self.goal == Goal::Strength) else {
-                        return Err(self.unlimited);
-                    };
-                    // Friction of this κ clamps blocks with forces of any size.
-                    if self.flow == Flow::NonDilatant {
-                        dilatancy = less(dilatancy);
-                        continue;
-                    }
-                    bracket[1] = last.factor;
+                // Friction of this κ clamps blocks with forces of any size, or this κ is too near to that for clarabel:
+                // forces of the least norm are found there, too.
+                (unknown @ (Ok(Outcome::Unlimited) | Err(EquilibriumError::NotConverged { .. })), Some(last))
+                    if dilatancy == 1.0 =>
+                {
+                    let stands =
+                        unknown.is_ok() || matches!(self.problem.with_part(last.factor), Ok(Outcome::Solved(_)));
+                    bracket[usize::from(stands)] = last.factor;
                     match inside(bracket) {
                         Some(kappa) => last.factor = kappa,
+                        None if self.flow == Flow::NonDilatant => dilatancy = less(dilatancy),
                         None => return self.clamped(bracket[1], programs),
                     }
                     continue;
                 }
+                (Ok(Outcome::Unlimited), Some(_)) => {
+                    dilatancy = less(dilatancy);
+                    continue;
+                }
+                (Ok(Outcome::Unlimited), None) => return Err(self.unlimited),
+                (Err(error), _) => return Err(error),
             };
+            if self.goal == Goal::Strength && solved.factor <= SETTLED {
+                return Err(self.unlimited);
+            }
             if let Some(last) = last.as_ref().filter(|_| self.goal == Goal::Strength && dilatancy == 1.0) {
                 bracket[usize::from(solved.factor <= last.factor)] = last.factor;
             }
@@ -224,11 +239,25 @@ impl Sequence<'_> {
                 _ => less(dilatancy),
             };
             factors.push(solved.factor);
-            beyond = excess;
-            last = Some(solved);
-            if let Some(last) = last.as_mut().filter(|last| dilatancy == 1.0 && last.factor >= bracket[1]) {
+            // Far below the limit φ says little: forces that stand with it may be of any size.
+            let most = last.as_ref().filter(|_| dilatancy == 1.0 && bracket[0] > 0.0);
+            let most = most.map_or(f64::INFINITY, |last| last.factor / (KEPT * KEPT));
+            let step = last.as_ref().map_or(0.0, |last| solved.factor - last.factor);
+            if dilatancy == 0.0 {
+                pace = if step * step_before < 0.0 { SLOWER * pace } else { (FASTER * pace).min(1.0) };
+            }
+            step_before = step;
+            last = Some(match last {
+                Some(last) if solved.factor > most => Solved { factor: most, ..last },
+                Some(last) if pace < 1.0 => Solved { forces: mixed(&last.forces, &solved.forces, pace), ..solved },
+                _ => solved,
+            });
+            let is_slow = self.goal == Goal::Strength && programs > UNTIL_HALVED;
+            if let Some(last) = last.as_mut().filter(|last| dilatancy == 1.0 && (is_slow || last.factor >= bracket[1]))
+            {
                 match inside(bracket) {
                     Some(kappa) => last.factor = kappa,
+                    None if self.flow == Flow::NonDilatant => dilatancy = less(dilatancy),
                     None => return self.clamped(bracket[1], programs),
                 }
             }
@@ -236,12 +265,26 @@ impl Sequence<'_> {
         let end = &factors[factors.len().saturating_sub(10)..];
         let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().reduce(of).unwrap_or(f64::NAN));
         match last {
-            Some(solved) if dilatancy == 0.0 && most - least <= ROUGHLY * most.abs() && beyond <= ROUGH_EXCESS => {
-                Ok(Ended::Settled(solved, beyond, MOST))
+            Some(last)
+                if dilatancy == 0.0
+                    && most - least <= ROUGHLY * most.abs()
+                    && self.problem.excess(&last, strength(last.factor)) <= ROUGH_EXCESS =>
+            {
+                let excess = self.problem.excess(&last, strength(last.factor));
+                Ok(Ended::Settled(last, excess, MOST))
+            }
+            // κ is the inverse of the factor.
+            _ if self.goal == Goal::Strength => {
+                Err(EquilibriumError::NotSettled { programs: MOST, least: 1.0 / most, most: 1.0 / least })
             }
             _ => Err(EquilibriumError::NotSettled { programs: MOST, least, most }),
         }
     }
+}
+
+/// From one state of forces a part of the way to the next.
+fn mixed(one: &[[f64; 3]], next: &[[f64; 3]], part: f64) -> Vec<[f64; 3]> {
+    one.iter().zip(next).map(|(a, b)| [0, 1, 2].map(|i| a[i] + part * (b[i] - a[i]))).collect()
 }
 
 /// The dilatancy of the next program.
@@ -252,7 +295,12 @@ fn less(dilatancy: f64) -> f64 {
 /// A κ inside the bracket; `None` once its ends agree.
 fn inside([low, high]: [f64; 2]) -> Option<f64> {
     let is_closed = high - low <= EXCESS * high || high <= SETTLED;
-    (!is_closed).then(|| if low > 0.0 { (low * high).sqrt() } else { KEPT * high })
+    let between = || match (low > 0.0, high.is_finite()) {
+        (true, true) => (low * high).sqrt(),
+        (true, false) => low / KEPT,
+        _ => KEPT * high,
+    };
+    (!is_closed).then(between)
 }
 
 /// A scene in its own units, and its strength as given.
@@ -272,6 +320,12 @@ impl Problem {
         };
         let strengths = assembly.corners.iter().map(strength).collect();
         Ok(Self { assembly, strengths })
+    }
+
+    /// The forces of the least norm that keep all bodies at rest with this part of the strength.
+    fn with_part(&self, kappa: f64) -> Result<Outcome, EquilibriumError> {
+        let reduced = |given: &Strength| Strength { slope: kappa * given.slope, base: kappa * given.base, ..*given };
+        self.at_rest(&self.strengths.iter().map(reduced).collect::<Vec<_>>())
     }
 
     /// The forces of the least norm that keep all bodies at rest with these strengths.
