@@ -34,7 +34,7 @@ Contact detection between potential particles.
   make header   write include/potential_particles.h anew from src/capi
   make lint     formatting, warnings, and the words of the guide
   make release-check  before a release: versions, words, links, licences, content of the crate, Rust interface, recipes; FULL=1: tests, packages, wheel
-  make bench    run time, each target beside what was measured, and run time against error; results in out/bench
+  make bench    the time of each kind of call, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
   make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture, key blocks against 1,000 simulations; results in out/rock
@@ -62,7 +62,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
-  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute); wheel: without times
+  QUICK=1           side-by-side, peers, bench: a little of everything, in seconds (peers: a minute); wheel: without times
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
@@ -304,14 +304,11 @@ release-check:
 	$(call heading,Before a release)
 	@scripts/release_check.sh
 
-# Without YADE its functor is left out, and the table says so.
 bench:
-	$(call heading,Stages)
-	@cargo bench --bench stages
 	$(call heading,Run time against error)
-	@cargo bench --bench work_precision
+	@cargo bench --bench work_precision $(if $(QUICK),-- quick)
 	$(call heading,Derivatives)
-	@cargo bench --bench derivatives
+	@cargo bench --bench derivatives $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/plot.py
 
 # Fails when a pair fails; the picture is drawn all the same.
