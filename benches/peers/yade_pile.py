@@ -25,7 +25,7 @@ import yade
 import yade.log
 from yade import Body, O, Quaternion, Vector3, polyhedra_utils, utils
 
-import pyramids
+import pile
 import yade_level_set
 from bodies import potential_body, reach
 from box import BODY_MASK, SLAB_MASK, SLAB_ONLY, Box
@@ -37,11 +37,10 @@ from pyramid import pyramid
 OURS, POTENTIAL, POLYHEDRA, LEVEL_SET = "ours", "potential", "polyhedra", "levelset"
 SEED = 7
 STATES = ("pos", "ori", "vel", "angVel")
-VERLET_DISTANCE = 0.03 * pyramids.SIZE  # with BoundWatch, which ours has; the others' boxes must be exact at every step
 # Dissipation: the potential particles' law has dashpots, and YADE's local damping as little as in make demo; the laws
 # of the others have none, and get more of YADE's.
 LOCAL_DAMPING = {OURS: 0.1, POTENTIAL: 0.1, POLYHEDRA: 0.3, LEVEL_SET: 0.3}
-FACE = 0.5 * pyramids.SIZE**2  # area on which the spring of a volume is as stiff as that of an overlap
+FACE = 0.5 * pile.SIZE**2  # area on which the spring of a volume is as stiff as that of an overlap
 BOUNCE_STEPS_PER_STEP = 20
 DROP, TILT = 0.05, (0.9, 0.3, 0.2, 0.1)  # of the bouncing body: height in m, orientation
 
@@ -57,12 +56,12 @@ class Scene:
 
     def __init__(self, kind, count, dissipation=True):
         self.kind, self.dissipation, self.ids = kind, dissipation, []
-        self.shape = pyramid(pyramids.SIZE)
-        self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, SEED)
-        self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
+        self.shape = pyramid(pile.SIZE)
+        self.grid = loose_grid(count, reach(self.shape), pile.JITTER, SEED)
+        self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pile.SIZE)
         self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN,
                                       measure_time=False) if kind in (OURS, POTENTIAL) else None
-        self.angle = np.radians(pyramids.FRICTION_ANGLE) if dissipation else 0.0
+        self.angle = np.radians(pile.FRICTION_ANGLE) if dissipation else 0.0
         O.reset()
         O.timingEnabled = True
         self.material = self._material()
@@ -86,7 +85,7 @@ class Scene:
         O.engines = self._engines()
         if self.contact:
             self.contact.prepare()
-        O.dt = pyramids.TIME_STEP
+        O.dt = pile.TIME_STEP
 
     def states(self):
         bodies = [O.bodies[i].state for i in self.ids]
@@ -102,7 +101,7 @@ class Scene:
     def energy(self):
         """Of motion and in the field of gravity, J."""
         bodies = [O.bodies[i].state for i in self.ids]
-        return utils.kineticEnergy() + sum(state.mass * state.pos[2] for state in bodies) * pyramids.GRAVITY
+        return utils.kineticEnergy() + sum(state.mass * state.pos[2] for state in bodies) * pile.GRAVITY
 
     def contacts(self):
         measure = "penetrationVolume" if self.kind == POLYHEDRA else "penetrationDepth"
@@ -111,10 +110,10 @@ class Scene:
     # --- parts ------------------------------------------------------------------------------
 
     def _material(self):
-        common = dict(frictionAngle=self.angle, density=pyramids.DENSITY)
+        common = dict(frictionAngle=self.angle, density=pile.DENSITY)
         if self.kind == POLYHEDRA:
             # The law takes the stiffness of two bodies in a row; N/m^3.
-            return yade.PolyhedraMat(young=2.0 * pyramids.NORMAL_STIFFNESS / FACE, poisson=0.5, **common)
+            return yade.PolyhedraMat(young=2.0 * pile.NORMAL_STIFFNESS / FACE, poisson=0.5, **common)
         return yade.FrictMat(young=1e8, poisson=0.5, **common)
 
     def _walls(self):
@@ -135,7 +134,7 @@ class Scene:
         corners = self._sharp()
         body = polyhedra_utils.polyhedra(self.material, v=[Vector3(*map(float, corner)) for corner in corners])
         self.own = (body.state.ori, body.state.pos)
-        mass = self.shape.volume * pyramids.DENSITY
+        mass = self.shape.volume * pile.DENSITY
         body.state.inertia *= mass / body.state.mass
         body.state.mass = mass
         return body
@@ -152,25 +151,20 @@ class Scene:
             core = Polyhedron(*planes_of(self.shape))
             self.field = yade_level_set.signed_distances(core.corners, core.triangles, self.shape.r)
         body = yade_level_set.body(*self.field, self.material)
-        body.state.mass = self.shape.volume * pyramids.DENSITY
-        body.state.inertia = Vector3(*self.shape.inertia) * pyramids.DENSITY
+        body.state.mass = self.shape.volume * pile.DENSITY
+        body.state.inertia = Vector3(*self.shape.inertia) * pile.DENSITY
         body.aspherical = True
         return body
 
     def _engines(self):
         damping = LOCAL_DAMPING[self.kind] if self.dissipation else 0.0
-        motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pyramids.GRAVITY),
+        motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pile.GRAVITY),
                                        label="motion")
         if self.contact:
-            reset, collider, loop, _ = pyramids.engines(self.contact)
-            if not self.dissipation:
-                loop.physDispatcher.functors[0].viscousDamping = 0.0
-            engines = [reset, collider, loop, motion]
-            if self.kind == OURS:
-                collider.boundDispatcher.functors = [yade.Bo1_ConicPP_Aabb()]
-                collider.verletDist = VERLET_DISTANCE
-                engines.insert(1, yade.BoundWatch(label="watch"))
-            return engines
+            viscous = pile.VISCOUS_DAMPING if self.dissipation else 0.0
+            engines = pile.engines(self.contact.functor, self.contact.loop, viscous=viscous, local=damping)
+            # The others' boxes must be exact at every step.
+            return pile.watched(engines) if self.kind == OURS else engines
         boxes = [{POLYHEDRA: yade.Bo1_Polyhedra_Aabb, LEVEL_SET: yade.Bo1_LevelSet_Aabb}[self.kind](),
                  yade.Bo1_Wall_Aabb()]
         collider = yade.InsertionSortCollider(boxes, verletDist=0.0, avoidSelfInteractionMask=SLAB_ONLY,
@@ -185,8 +179,8 @@ class Scene:
                 [yade.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
                 label="contacts",
             )
-        springs = dict(kn=yade.MatchMaker(algo="val", val=pyramids.NORMAL_STIFFNESS),
-                       ks=yade.MatchMaker(algo="val", val=pyramids.SHEAR_STIFFNESS))
+        springs = dict(kn=yade.MatchMaker(algo="val", val=pile.NORMAL_STIFFNESS),
+                       ks=yade.MatchMaker(algo="val", val=pile.SHEAR_STIFFNESS))
         return yade.InteractionLoop(
             [yade.Ig2_LevelSet_LevelSet_ScGeom(), yade.Ig2_Wall_LevelSet_ScGeom()],
             [yade.Ip2_FrictMat_FrictMat_FrictPhys(**springs)],
@@ -267,20 +261,20 @@ def bounce():
 def describe():
     """Shape, mass and laws, for those who are not YADE."""
     scene = Scene(OURS, JOB["count"])
-    (normals, offsets), mass = planes_of(scene.shape), scene.shape.volume * pyramids.DENSITY
+    (normals, offsets), mass = planes_of(scene.shape), scene.shape.volume * pile.DENSITY
     # Of the critical damping of two bodies, whose effective mass at a corner is about a quarter.
-    damping = 2.0 * pyramids.VISCOUS_DAMPING * np.sqrt(pyramids.NORMAL_STIFFNESS * 0.25 * mass)
+    damping = 2.0 * pile.VISCOUS_DAMPING * np.sqrt(pile.NORMAL_STIFFNESS * 0.25 * mass)
     return {
         "normals": normals.tolist(),
         "offsets": offsets.tolist(),
         "r": scene.shape.r,
         "mass": mass,
-        "inertia": [value * pyramids.DENSITY for value in scene.shape.inertia],
+        "inertia": [value * pile.DENSITY for value in scene.shape.inertia],
         "half_width": float(scene.box.half_x),
         "height": float(scene.box.height),
         "laws": [
-            pyramids.NORMAL_STIFFNESS, damping, 0.5 * damping,
-            float(np.tan(scene.angle)), pyramids.GRAVITY, pyramids.TIME_STEP
+            pile.NORMAL_STIFFNESS, damping, 0.5 * damping,
+            float(np.tan(scene.angle)), pile.GRAVITY, pile.TIME_STEP
         ],
     }
 
