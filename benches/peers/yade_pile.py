@@ -23,20 +23,17 @@ import potential_particles  # noqa: F401 (the studies' pyramid takes its mass fr
 import numpy as np
 import yade
 import yade.log
-from yade import Body, O, Quaternion, Vector3, polyhedra_utils, utils
+from yade import O, Quaternion, Vector3, polyhedra_utils, utils
 
 import pile
 import yade_level_set
 from bodies import potential_body, reach
-from box import BODY_MASK, SLAB_MASK, SLAB_ONLY, Box
-from contact_functor import BUILTIN, LIBRARY, ContactFunctor
-from loose_grid import loose_grid
+from box import BODY_MASK, SLAB_MASK, SLAB_ONLY
+from contact_functor import BUILTIN, LIBRARY
 from polyhedron import Polyhedron
-from pyramid import pyramid
 
 OURS, POTENTIAL, POLYHEDRA, LEVEL_SET = "ours", "potential", "polyhedra", "levelset"
 SEED = 7
-STATES = ("pos", "ori", "vel", "angVel")
 # Dissipation: the potential particles' law has dashpots, and YADE's local damping as little as in make demo; the laws
 # of the others have none, and get more of YADE's.
 LOCAL_DAMPING = {OURS: 0.1, POTENTIAL: 0.1, POLYHEDRA: 0.3, LEVEL_SET: 0.3}
@@ -51,25 +48,18 @@ def planes_of(shape):
     return planes[:, :3], planes[:, 3]
 
 
-class Scene:
-    """Engines and the shape of one kind; `ids` of its bodies."""
+class Scene(pile.Pile):
+    """The pile with another kind of bodies, their walls and engines."""
 
     def __init__(self, kind, count, dissipation=True):
-        self.kind, self.dissipation, self.ids = kind, dissipation, []
-        self.shape = pyramid(pile.SIZE)
-        self.grid = loose_grid(count, reach(self.shape), pile.JITTER, SEED)
-        self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pile.SIZE)
-        self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN,
-                                      measure_time=False) if kind in (OURS, POTENTIAL) else None
+        super().__init__(count, LIBRARY if kind == OURS else BUILTIN, seed=SEED, measure_time=False)
+        self.kind, self.dissipation, self.is_potential = kind, dissipation, kind in (OURS, POTENTIAL)
         self.angle = np.radians(pile.FRICTION_ANGLE) if dissipation else 0.0
-        O.reset()
-        O.timingEnabled = True
         self.material = self._material()
-        O.materials.append(self.material)
-        self._walls()
+        O.reset()
+        self.start()
 
-    def add(self, position, orientation, velocity=(0, 0, 0), spin=(0, 0, 0)):
-        """A pyramid; orientation w, x, y, z."""
+    def body(self, position, orientation):
         body = {
             OURS: self._potential, POTENTIAL: self._potential, POLYHEDRA: self._polyhedron, LEVEL_SET: self._level_set
         }[self.kind]()
@@ -77,15 +67,8 @@ class Scene:
         own, offset = getattr(self, "own", (Quaternion.Identity, Vector3.Zero))
         body.state.pos = body.state.refPos = Vector3(*map(float, position)) + turn * offset
         body.state.ori = body.state.refOri = turn * own
-        body.state.vel, body.state.angVel = Vector3(*map(float, velocity)), Vector3(*map(float, spin))
         body.mask = BODY_MASK
-        self.ids.append(O.bodies.append(body))
-
-    def finish(self):
-        O.engines = self._engines()
-        if self.contact:
-            self.contact.prepare()
-        O.dt = pile.TIME_STEP
+        return body
 
     def states(self):
         bodies = [O.bodies[i].state for i in self.ids]
@@ -116,15 +99,15 @@ class Scene:
             return yade.PolyhedraMat(young=2.0 * pile.NORMAL_STIFFNESS / FACE, poisson=0.5, **common)
         return yade.FrictMat(young=1e8, poisson=0.5, **common)
 
-    def _walls(self):
-        if self.contact:
-            O.bodies.append(self.box.slabs(self.contact.shape_class, self.material))
-            return
+    def walls(self):
+        if self.is_potential:
+            return super().walls()
         h = self.box.half_x
-        for place, axis, sense in ((0.0, 2, 1), (-h, 0, 1), (h, 0, -1), (-h, 1, 1), (h, 1, -1)):
-            wall = utils.wall(place, axis, sense=sense, material=self.material)
+        walls = [utils.wall(place, axis, sense=sense, material=self.material)
+                 for place, axis, sense in ((0.0, 2, 1), (-h, 0, 1), (h, 0, -1), (-h, 1, 1), (h, 1, -1))]
+        for wall in walls:
             wall.mask = SLAB_MASK
-            O.bodies.append(wall)
+        return walls
 
     def _potential(self):
         return potential_body(self.contact.shape_class, self.shape, self.material)
@@ -156,11 +139,11 @@ class Scene:
         body.aspherical = True
         return body
 
-    def _engines(self):
+    def engines(self):
         damping = LOCAL_DAMPING[self.kind] if self.dissipation else 0.0
         motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pile.GRAVITY),
                                        label="motion")
-        if self.contact:
+        if self.is_potential:
             viscous = pile.VISCOUS_DAMPING if self.dissipation else 0.0
             engines = pile.engines(self.contact.functor, self.contact.loop, viscous=viscous, local=damping)
             # The others' boxes must be exact at every step.
@@ -192,8 +175,7 @@ class Scene:
 def fall():
     """From the loose grid to rest: keeps the states while the bodies fall onto each other, and those at rest."""
     scene = Scene(JOB["kind"], JOB["count"])
-    for position, orientation in zip(scene.grid.positions, scene.grid.orientations):
-        scene.add(position, orientation)
+    scene.lay(scene.grid.positions, scene.grid.orientations)
     scene.finish()
     O.run(JOB["falling_step"], True)
     np.savez(JOB["save"][0], **scene.states())
@@ -208,8 +190,7 @@ def windows():
     """Milliseconds a step, in windows; contacts, energy and who is lost."""
     scene = Scene(JOB["kind"], JOB["count"])
     started = np.load(JOB["start"])
-    for row in zip(*(started[name] for name in STATES)):
-        scene.add(*row)
+    scene.lay(*(started[name] for name in pile.STATES))
     scene.finish()
     budget = time.perf_counter() + JOB["seconds"]
     energies = [scene.energy()]
@@ -243,7 +224,7 @@ def bounce():
     the start.
     """
     scene = Scene(JOB["kind"], 1, dissipation=False)
-    scene.add((0, 0, reach(scene.shape) + DROP), TILT)
+    scene.lay([(0, 0, reach(scene.shape) + DROP)], [TILT])
     scene.finish()
     # So short a step that what is left is the geometry's: the laws give no force in the first step of a contact.
     O.dt /= BOUNCE_STEPS_PER_STEP
