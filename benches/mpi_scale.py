@@ -25,7 +25,7 @@ import matplotlib.pyplot as plt
 TOP = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(TOP / "studies"))
 
-from summary import made, print_table, print_targets, target, write_summary
+from summary import made, print_columns, print_targets, target, write_summary
 
 OUT = TOP / "out" / "mpi" / "scale"
 SMALL, LARGE = "8,5", "20,10"  # tiles of 504 bodies
@@ -173,21 +173,16 @@ def report(runs):
     write_summary(OUT / "summary.json", {"targets": targets, "runs": rows, "costs_s": cost, "model": model,
                                          **made("make mpi-scale")})
     draw(rows, model)
-    show(rows, cost, model, targets)
+    show(rows, model, targets)
 
 
-def show(rows, cost, model, targets):
-    table = []
-    for row in rows:
-        text = f"{row['bodies']:,} bodies, {row['pairs']:,} pairs: {1e3 * row['seconds']:.1f} ms a step, {row['ratio']:.2f} times as fast"
-        table.append((row["run"], text))
-    numbers = [name for name in cost if name.startswith(("pairs", "contacts", "states"))]
-    table += [(name, f"{value:.3g}" if name in numbers else f"{1e6 * value:.3g} us") for name, value in cost.items()]
-    for row in model:
-        if row["workers"] in (2, 8, 32, 128, 512):
-            text = f"{row['bodies']:,} bodies, {row['workers']} workers: {1e3 * row['step_seconds']:.2f} ms, {row['ratio']:.1f} times"
-            table.append(("model", text))
-    print_table(table)
+def show(rows, model, targets):
+    print_columns([("run", "bodies", "pairs", "ms a step", "times as fast")] + [
+        (row["run"], f"{row['bodies']:,}", f"{row['pairs']:,}", f"{1e3 * row['seconds']:.1f}", f"{row['ratio']:.2f}")
+        for row in rows])
+    print_columns([("model: bodies", "workers", "ms a step", "times as fast")] + [
+        (f"{row['bodies']:,}", str(row["workers"]), f"{1e3 * row['step_seconds']:.2f}", f"{row['ratio']:.1f}")
+        for row in model if row["workers"] in (2, 8, 32, 128, 512)])
     print_targets(targets)
 
 

@@ -104,13 +104,18 @@ def of_pile(name):
     # What still settles does so at any step.
     seconds = STEPS * ours
     most = max(scale, 4.0 * largest_energy(0.2 * ours, seconds))
-    low, high = 0.2, 0.3
-    while largest_energy(high * ours, seconds, most) <= most and high < 50:
-        low, high = high, 1.3 * high
+    return largest(ours, 0.2, lambda step: largest_energy(step, seconds, most) <= most), ours, yades
+
+
+def largest(unit, low, is_sound):
+    """The largest step, from low units on, that is sound, to 3 %."""
+    high = 1.5 * low
+    while is_sound(high * unit) and high < 50:
+        low, high = high, 1.4 * high
     while high / low > 1.03:
         middle = math.sqrt(low * high)
-        low, high = (middle, high) if largest_energy(middle * ours, seconds, most) <= most else (low, middle)
-    return low * ours, ours, yades
+        low, high = (middle, high) if is_sound(middle * unit) else (low, middle)
+    return low * unit
 
 
 def of_impact():
@@ -133,16 +138,11 @@ def of_impact():
         return utils.kineticEnergy() / before
     fall()
     ours = potential_particles.critical_time_step(safety=1.0)
-    low, high = 0.5, 1.0
-    while fall(high * ours) < 1.05 and high < 50:
-        low, high = high, 1.5 * high
-    while high / low > 1.03:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if fall(middle * ours) < 1.05 else (low, middle)
+    limit = largest(ours, 0.5, lambda step: fall(step) < 1.05)
     fall()
     O.engines[3].active = True
     O.step()
-    return low * ours, ours, O.dt
+    return limit, ours, O.dt
 
 
 def main():
