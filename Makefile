@@ -305,8 +305,6 @@ release-check:
 bench:
 	$(call heading,Run time against error)
 	@cargo bench --bench work_precision $(if $(QUICK),-- quick)
-	$(call heading,Derivatives)
-	@cargo bench --bench derivatives $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/plot.py
 
 # Fails when a pair fails; the picture is drawn all the same.

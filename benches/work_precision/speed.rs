@@ -10,7 +10,10 @@ use crate::scene::touching::{self, Touching};
 use crate::target::{at_least, at_most};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::internals::{Pair, reject};
-use potential_particles::{BackEnd, Contact, Formulation, Section, Settings, detect, detect_batch};
+use potential_particles::{
+    BackEnd, Contact, ContactWeights, Formulation, Section, Settings, ShapeGradient, contact_derivatives,
+    contact_gradient, detect, detect_batch,
+};
 use serde::Serialize;
 use serde_json::Value;
 use std::cell::RefCell;
@@ -67,10 +70,13 @@ pub fn measure(effort: &Effort) -> Vec<Group> {
             })
             .collect();
         let contacts: Vec<Contact> = pairs.iter().map(|pair| cold(pair, &midway())).collect();
-        let contestants: [(&str, Contestant); 4] = [
+        let slopes = Slopes::new(&pairs, Formulation::Midway);
+        let contestants: [(&str, Contestant); 6] = [
             ("evaluation", &|i| pairs[i].evaluate()),
             ("midway, cold", &|i| _ = black_box(cold(&pairs[i], &midway()))),
             ("midway, warm", &|i| _ = black_box(warm(&pairs[i], &midway()))),
+            ("midway, pose derivatives", &|i| slopes.of_poses(i)),
+            ("midway, product in the shapes", &|i| slopes.of_shapes(i)),
             ("contact area", &|i| contact_area(&pairs[i], &contacts[i])),
         ];
         groups.push(group(planes_name(planes), pairs.len(), &contestants, effort));
@@ -87,7 +93,9 @@ fn pyramid_costs(name: String, pairs: &[Touching], effort: &Effort, random: &mut
     let contacts: Vec<Contact> = pairs.iter().map(|pair| cold(pair, &midway())).collect();
     let (closest, carrying) = (midway().with_formulation(Formulation::Closest), carrying_on());
     let cone = |settings: Settings| settings.with_back_end(BackEnd::ConeProgram);
-    let contestants: [(&str, Contestant); 14] = [
+    let slopes = Slopes::new(pairs, Formulation::Midway);
+    let of_closest = Slopes::new(pairs, Formulation::Closest);
+    let contestants: [(&str, Contestant); 18] = [
         ("evaluation", &|i| pairs[i].evaluate()),
         ("evaluation by potential::local", &|i| pairs[i].evaluate_by_library()),
         ("midway, cold", &|i| _ = black_box(cold(&pairs[i], &midway()))),
@@ -101,6 +109,10 @@ fn pyramid_costs(name: String, pairs: &[Touching], effort: &Effort, random: &mut
         ("rejected by memory", &|i| _ = black_box(warm(&by_memory[i % by_memory.len()], &midway()))),
         ("clarabel, midway", &|i| _ = black_box(cold(&pairs[i], &cone(midway())))),
         ("clarabel, closest", &|i| _ = black_box(cold(&pairs[i], &cone(closest)))),
+        ("midway, pose derivatives", &|i| slopes.of_poses(i)),
+        ("midway, product in the shapes", &|i| slopes.of_shapes(i)),
+        ("closest, pose derivatives", &|i| of_closest.of_poses(i)),
+        ("closest, product in the shapes", &|i| of_closest.of_shapes(i)),
         ("contact area", &|i| contact_area(&pairs[i], &contacts[i])),
     ];
     let mut group = group(name, pairs.len(), &contestants, effort);
@@ -198,6 +210,45 @@ fn contact_area(pair: &Touching, contact: &Contact) {
     let _ = black_box(section.area(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, AREA_TOLERANCE));
 }
 
+/// The derivatives of contacts in the poses, and a product with those in both shapes.
+struct Slopes<'a> {
+    pairs: &'a [Touching],
+    settings: Settings,
+    contacts: Vec<Contact>,
+    /// What products are added to: all pairs of a group have as many planes.
+    sums: RefCell<[ShapeGradient; 2]>,
+}
+
+impl<'a> Slopes<'a> {
+    fn new(pairs: &'a [Touching], formulation: Formulation) -> Self {
+        let settings = midway().with_formulation(formulation);
+        let contacts = pairs.iter().map(|pair| cold(pair, &settings)).collect();
+        let sums = RefCell::new([ShapeGradient::zeros(&pairs[0].a), ShapeGradient::zeros(&pairs[0].b)]);
+        Self { pairs, settings, contacts, sums }
+    }
+
+    fn of_poses(&self, i: usize) {
+        let p = black_box(&self.pairs[i]);
+        let found = contact_derivatives(&p.a, &p.pose_a, &p.b, &p.pose_b, &self.contacts[i], &self.settings);
+        black_box(&found.expect("derivatives of an overlapping contact"));
+    }
+
+    fn of_shapes(&self, i: usize) {
+        let weights = ContactWeights {
+            s: 0.1,
+            overlap: 1.0,
+            normal: [0.3, 0.2, 0.1].into(),
+            point: [0.1, 0.2, 0.3].into(),
+            ..ContactWeights::default()
+        };
+        let (p, contact) = (black_box(&self.pairs[i]), &self.contacts[i]);
+        let [a, b] = &mut *self.sums.borrow_mut();
+        let (a, b) = (Some(a), Some(b));
+        let found = contact_gradient(&p.a, &p.pose_a, &p.b, &p.pose_b, contact, &self.settings, &weights, a, b);
+        black_box(&found.expect("a gradient of an overlapping contact"));
+    }
+}
+
 /// The stated ratios. Where several pyramids are meant, the worst of them counts.
 pub fn targets(groups: &[Group]) -> Vec<Value> {
     let rounded = pyramids::ROUNDED.map(rounded_name);
@@ -214,7 +265,21 @@ pub fn targets(groups: &[Group]) -> Vec<Value> {
     let least = |over: &str, under: &str| quotients(over, under).into_iter().fold(f64::INFINITY, f64::min);
     let warm_ns = |planes: usize| cost(&planes_name(planes), "midway, warm").nanoseconds;
     let sharp = cost(&rounded_name(pyramids::SHARP), "midway, cold").units;
+    // Of the pyramids in the middle.
+    let slope = |name: &str, warm: &str| cost(&rounded[1], name).units / cost(&rounded[1], warm).units;
     vec![
+        at_most("pose derivatives / warm call, midway", 0.3, slope("midway, pose derivatives", "midway, warm")),
+        at_most(
+            "product in the shapes / warm call, midway",
+            1.0,
+            slope("midway, product in the shapes", "midway, warm"),
+        ),
+        at_most("pose derivatives / warm call, closest", 0.3, slope("closest, pose derivatives", "closest, warm")),
+        at_most(
+            "product in the shapes / warm call, closest",
+            1.0,
+            slope("closest, product in the shapes", "closest, warm"),
+        ),
         at_most("midway with geometry, cold (evaluations)", 50.0, units("midway, cold")),
         at_most("midway with geometry, warm (evaluations)", 15.0, units("midway, warm")),
         at_most("midway carried to a pose 1e-4 away (evaluations)", 8.0, units("midway, carried")),
