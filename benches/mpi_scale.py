@@ -25,8 +25,7 @@ import matplotlib.pyplot as plt
 TOP = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(TOP / "studies"))
 
-import machine
-from summary import print_table, write_summary
+from summary import made, print_columns, print_targets, target, write_summary
 
 OUT = TOP / "out" / "mpi" / "scale"
 SMALL, LARGE = "8,5", "20,10"  # tiles of 504 bodies
@@ -172,31 +171,19 @@ def report(runs):
                error),
     ]
     write_summary(OUT / "summary.json", {"targets": targets, "runs": rows, "costs_s": cost, "model": model,
-                                         "machine": machine.machine_line(), "date": machine.now()})
+                                         **made("make mpi-scale")})
     draw(rows, model)
-    show(rows, cost, model, targets)
+    show(rows, model, targets)
 
 
-def show(rows, cost, model, targets):
-    table = []
-    for row in rows:
-        text = f"{row['bodies']:,} bodies, {row['pairs']:,} pairs: {1e3 * row['seconds']:.1f} ms a step, {row['ratio']:.2f} times as fast"
-        table.append((row["run"], text))
-    numbers = [name for name in cost if name.startswith(("pairs", "contacts", "states"))]
-    table += [(name, f"{value:.3g}" if name in numbers else f"{1e6 * value:.3g} us") for name, value in cost.items()]
-    for row in model:
-        if row["workers"] in (2, 8, 32, 128, 512):
-            text = f"{row['bodies']:,} bodies, {row['workers']} workers: {1e3 * row['step_seconds']:.2f} ms, {row['ratio']:.1f} times"
-            table.append(("model", text))
-    for row in targets:
-        text = f"{row['measured']:.3g}, {row['sense']} {row['target']}: {'met' if row['met'] else 'MISSED'}"
-        table.append((row["name"], text))
-    print_table(table)
-
-
-def target(name, sense, limit, measured):
-    met = measured >= limit if sense == "at least" else measured <= limit
-    return {"name": name, "sense": sense, "target": limit, "measured": measured, "met": met}
+def show(rows, model, targets):
+    print_columns([("run", "bodies", "pairs", "ms a step", "times as fast")] + [
+        (row["run"], f"{row['bodies']:,}", f"{row['pairs']:,}", f"{1e3 * row['seconds']:.1f}", f"{row['ratio']:.2f}")
+        for row in rows])
+    print_columns([("model: bodies", "workers", "ms a step", "times as fast")] + [
+        (f"{row['bodies']:,}", str(row["workers"]), f"{1e3 * row['step_seconds']:.2f}", f"{row['ratio']:.1f}")
+        for row in model if row["workers"] in (2, 8, 32, 128, 512)])
+    print_targets(targets)
 
 
 def draw(rows, model):

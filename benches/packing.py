@@ -19,10 +19,9 @@ from matplotlib import colormaps
 TOP = Path(sys.argv[0]).resolve().parents[1]
 sys.path.insert(0, str(TOP / "studies"))
 
-import machine
 import yade
 from potential_particles import add_packing, pack, packing, plot, shapes
-from summary import print_table, write_summary
+from summary import made, print_table, print_targets, target, write_summary
 from yade import O
 
 OUT = TOP / "out" / "packing"
@@ -51,12 +50,10 @@ def main():
     targets = compare(runs, count)
     write_summary(OUT / "summary.json", {
         "targets": targets, "runs": runs, "bodies": count, "threads": THREADS,
-        "machine": machine.machine_line(), "date": machine.now(), "command": "scripts/yade.sh -j2 benches/packing.py",
+        **made("scripts/yade.sh -j2 benches/packing.py"),
     })
-    rows = [(one["name"],
-             f"{one['measured']:.3g} ({one['sense']} {one['target']}: {'met' if one['met'] else 'MISSED'})")
-            for one in targets]
-    print_table([*rows, ("results", f"{OUT}: summary.json, packing.png")])
+    print_targets(targets)
+    print_table([("results", f"{OUT}: summary.json, packing.png")])
 
 
 def measured(space, rocks, sizes, count, dense):
@@ -97,16 +94,14 @@ def processor_seconds():
 
 
 def compare(runs, count):
-    rows = [
-        (f"{count:,} rocks settled, seconds on {THREADS} cores", runs["settled"]["seconds"], "<=", 60.0),
-        (f"{count:,} rocks scattered, seconds on {THREADS} cores", runs["scattered"]["seconds"], "<=", 60.0),
-        ("solid fraction of the settled rocks, in the middle", runs["settled"]["solid_fraction_of_the_middle"], ">=",
-         0.5),
-        ("pairs that overlap", sum(run["overlapping"] for run in runs.values()), "<=", 0),
-        ("rocks without a place", sum(count - run["bodies"] for run in runs.values()), "<=", 0),
+    return [
+        target(f"{count:,} rocks settled, seconds on {THREADS} cores", "at most", 60.0, runs["settled"]["seconds"]),
+        target(f"{count:,} rocks scattered, seconds on {THREADS} cores", "at most", 60.0, runs["scattered"]["seconds"]),
+        target("solid fraction of the settled rocks, in the middle", "at least", 0.5,
+               runs["settled"]["solid_fraction_of_the_middle"]),
+        target("pairs that overlap", "at most", 0, sum(run["overlapping"] for run in runs.values())),
+        target("rocks without a place", "at most", 0, sum(count - run["bodies"] for run in runs.values())),
     ]
-    return [{"name": name, "sense": sense, "target": target, "measured": found,
-             "met": bool(found <= target if sense == "<=" else found >= target)} for name, found, sense, target in rows]
 
 
 def draw(placements, edge):

@@ -26,7 +26,7 @@ from yade import utils
 
 sys.path[:0] = ["studies", "benches"]
 from stepping import advance
-from summary import print_table, write_summary
+from summary import made, print_targets, target, write_summary
 
 OUT, GRAVITY, DENSITY, NUMBER, STEPS = Path(os.environ.get("OUTPUT", "out/time_step")), 9.81, 2650.0, 40, 1500
 KEYS = ("breaks_s", "ours_s", "yades_s")
@@ -104,13 +104,18 @@ def of_pile(name):
     # What still settles does so at any step.
     seconds = STEPS * ours
     most = max(scale, 4.0 * largest_energy(0.2 * ours, seconds))
-    low, high = 0.2, 0.3
-    while largest_energy(high * ours, seconds, most) <= most and high < 50:
-        low, high = high, 1.3 * high
+    return largest(ours, 0.2, lambda step: largest_energy(step, seconds, most) <= most), ours, yades
+
+
+def largest(unit, low, is_sound):
+    """The largest step, from low units on, that is sound, to 3 %."""
+    high = 1.5 * low
+    while is_sound(high * unit) and high < 50:
+        low, high = high, 1.4 * high
     while high / low > 1.03:
         middle = math.sqrt(low * high)
-        low, high = (middle, high) if largest_energy(middle * ours, seconds, most) <= most else (low, middle)
-    return low * ours, ours, yades
+        low, high = (middle, high) if is_sound(middle * unit) else (low, middle)
+    return low * unit
 
 
 def of_impact():
@@ -133,16 +138,11 @@ def of_impact():
         return utils.kineticEnergy() / before
     fall()
     ours = potential_particles.critical_time_step(safety=1.0)
-    low, high = 0.5, 1.0
-    while fall(high * ours) < 1.05 and high < 50:
-        low, high = high, 1.5 * high
-    while high / low > 1.03:
-        middle = math.sqrt(low * high)
-        low, high = (middle, high) if fall(middle * ours) < 1.05 else (low, middle)
+    limit = largest(ours, 0.5, lambda step: fall(step) < 1.05)
     fall()
     O.engines[3].active = True
     O.step()
-    return low * ours, ours, O.dt
+    return limit, ours, O.dt
 
 
 def main():
@@ -158,16 +158,13 @@ def main():
               flush=True)
     worst, least = max(ours / limit for limit, ours, _ in found.values()), min(ours / limit
                                                                                for limit, ours, _ in found.values())
-    targets = [{
-        "name": "largest critical_time_step(safety=1) over the step that breaks a scene", "sense": "<=", "target": 1.0,
-        "measured": worst, "met": worst <= 1.0
-    }, {
-        "name": "least of it, with the default safety", "sense": ">=", "target": 0.1, "measured": 0.5 * least,
-        "met": 0.5 * least >= 0.1
-    }]
+    targets = [
+        target("largest critical_time_step(safety=1) over the step that breaks a scene", "at most", 1.0, worst),
+        target("least of it, with the default safety", "at least", 0.1, 0.5 * least)
+    ]
     write_summary(OUT / "summary.json",
                   {"scenes": {name: dict(zip(KEYS, one))
-                              for name, one in found.items()}, "targets": targets})
+                              for name, one in found.items()}, "targets": targets, **made("make time-step")})
     picture, axes = plt.subplots(figsize=(7, 3.2), layout="constrained")
     places = range(len(found))
     axes.barh([place + 0.2 for place in places], [ours / limit for limit, ours, _ in found.values()], 0.38,
@@ -179,7 +176,7 @@ def main():
     axes.set_xlabel("step over the one beyond which the scene breaks (cut at 3)")
     axes.legend(fontsize=8)
     picture.savefig(OUT / "time_step.png", dpi=150)
-    print_table([(one["name"], f"{one['measured']:.2f} ({'met' if one['met'] else 'not met'})") for one in targets])
+    print_targets(targets)
 
 
 main()

@@ -5,8 +5,8 @@ YADE:
     yade -x -n -j1 examples/pyramids.py
 
 Environment: BODIES (200), STEPS (14000), OUTPUT (out/pyramids_short), LAW (point, or joint: contact patches). Writes
-three pictures and, for ParaView, pyramids.*.pvd. SI units; z up. studies/pyramids.py is the same with energies, a
-summary and YADE's own contact functor for comparison.
+three pictures and, for ParaView, pyramids.*.pvd. SI units; z up. studies/pyramids.py is the same with dashpots,
+energies and a summary.
 """
 import os
 

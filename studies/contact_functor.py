@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Which functor finds the contacts: that of this library, or the one built into YADE."""
 
+import potential_particles
 import yade
-from yade import Ig2_PP_PP_ScGeom, PotentialParticle
+from yade import PotentialParticle
 
 # The drop-in serves YADE's own shapes with this library.
 LIBRARY, DROP_IN, BUILTIN = "library", "drop-in", "builtin"
@@ -16,19 +17,17 @@ class ContactFunctor:
     def __init__(self, kind, area=False, measure_time=True):
         """area: whether stiffness is per contact area; measure_time: whether the functor, if it
         can, adds up its own time, at the price of two looks at the clock in each call."""
-        self.plugin = None if kind == BUILTIN else _plugin()
-        self.shape_class = self.plugin.ConicPotentialParticle if kind == LIBRARY else PotentialParticle
-        if kind == BUILTIN:
-            self.functor = Ig2_PP_PP_ScGeom(calContactArea=area)
-        elif kind == DROP_IN:
-            self.functor = self.plugin.Ig2_PP_PP_ScGeom_Conic(calContactArea=area, measureTime=measure_time)
-        else:
-            self.functor = self.plugin.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=area, measureTime=measure_time)
+        self.is_ours = kind != BUILTIN
+        self.shape_class = potential_particles.ConicPotentialParticle if kind == LIBRARY else PotentialParticle
+        timed = {"measureTime": measure_time} if self.is_ours else {}
+        functor = {LIBRARY: yade.Ig2_ConicPP_ConicPP_ScGeom, DROP_IN: yade.Ig2_PP_PP_ScGeom_Conic,
+                   BUILTIN: yade.Ig2_PP_PP_ScGeom}[kind]
+        self.functor = functor(calContactArea=area, **timed)
 
     @property
     def loop(self):
         """The contact loop that goes with the functor."""
-        return getattr(self.plugin, "ConicInteractionLoop", yade.InteractionLoop)
+        return potential_particles.ConicInteractionLoop if self.is_ours else yade.InteractionLoop
 
     @property
     def name(self):
@@ -36,8 +35,8 @@ class ContactFunctor:
 
     def prepare(self):
         """To be called once YADE's engines and bodies are in place."""
-        if self.plugin:
-            self.plugin.prepare()
+        if self.is_ours:
+            potential_particles.prepare()
 
     def counts(self):
         """Calls, pairs solved, cheaply rejected, answered in extended precision, failed; seconds inside.
@@ -61,7 +60,7 @@ class ContactFunctor:
         return {name: count - self._answers_at_mark[name] for name, count in self._answers().items()}
 
     def _answers(self):
-        if not self.plugin:
+        if not self.is_ours:
             return None
         return {**self.functor.answers, "overlapping": self.functor.overlapping}
 
@@ -71,17 +70,6 @@ class ContactFunctor:
 
     def versions(self):
         """Of the library and the plugin; nothing for the functor built into YADE."""
-        if not self.plugin:
+        if not self.is_ours:
             return {}
-        return {"library": self.plugin.library_version(), "glue": self.plugin.__version__}
-
-
-def _plugin():
-    try:
-        import potential_particles
-    except ImportError as error:
-        raise SystemExit(
-            f"The plugin potential_particles does not load ({error}): build it with `make` and put "
-            "yade-glue/build/python on PYTHONPATH, or set FUNCTOR=builtin."
-        ) from error
-    return potential_particles
+        return {"library": potential_particles.library_version(), "glue": potential_particles.__version__}

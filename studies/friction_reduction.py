@@ -28,7 +28,7 @@ from yade import O
 
 from joint_planes import sliding_on
 from stepping import advance
-from wedge_scene import GRAVITY
+from block_scene import GRAVITY
 
 HEADROOM = 3.0  # degrees above the plunge to begin with
 STEP = 1.0  # degrees

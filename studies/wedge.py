@@ -21,31 +21,23 @@ HERE = Path(sys.argv[0]).resolve().parent
 sys.path.insert(0, str(HERE))
 
 import numpy as np
+import potential_particles
 import yade
 from potential_particles import Recorder
 from potential_particles.output.drawn import ShapeMeshes, drawn
 from yade import O
 
 import friction_reduction
-import machine
 import settings
-from contact_functor import LIBRARY, ContactFunctor
+from block_scene import JOINTS
 from friction_reduction import FrictionReduction, angle_of_contact_normals, errors, expected_trials
 from progress import Progress
-from summary import print_table, write_summary
+from summary import made, print_columns, print_table, write_summary
 from wedge_blocks import WedgeBlocks
-from wedge_cases import (
-    ALL,
-    DIRECTION_TARGET,
-    FORCE_TARGET,
-    NEAR_POLYHEDRAL,
-    PAPER,
-    PAPER_ANGLE,
-    THREE_DEC_ANGLE,
-    WIDEST_BRACKET,
-)
+from wedge_cases import (ALL, DIRECTION_TARGET, FORCE_TARGET, NEAR_POLYHEDRAL, PAPER, PAPER_ANGLE, THREE_DEC_ANGLE,
+                         WIDEST_BRACKET)
 from wedge_figures import save_overview, save_study
-from wedge_scene import JOINTS, WedgeScene
+from wedge_scene import WedgeScene
 from wedge_studies import ROUGH, UNREGULARISED, not_run_in, points_at_rest, slide_out
 
 CHOICES = {"all": ALL, "short": [PAPER, NEAR_POLYHEDRAL]}
@@ -84,7 +76,7 @@ class Run:
 
     def _case(self, case):
         started = time.perf_counter()
-        scene = WedgeScene(case, self.blocks[case.name], ContactFunctor(LIBRARY))
+        scene = WedgeScene(case, self.blocks[case.name])
         reduction = FrictionReduction(scene, look=self._look(case))
         result = reduction.run()
         self.rows.append(_row(case, scene, reduction, result, time.perf_counter() - started))
@@ -92,7 +84,7 @@ class Run:
         if case is PAPER and not JOINTS:
             self._look_closer(scene, result)
         if case is PAPER and self.closer:
-            scene = WedgeScene(case, self.blocks[case.name], ContactFunctor(LIBRARY))
+            scene = WedgeScene(case, self.blocks[case.name])
             limit = scene.blocks.limit
             rough = not_run_in(scene, self._look(case, "set down at 60 degrees, not run in"))
             self.studies["not_run_in"] = {
@@ -191,9 +183,9 @@ def main():
         "failed_contacts": run.failed_contacts,
         "wall_seconds": time.perf_counter() - started,
         "threads": O.numThreads,
-        "versions": {"yade": yade.config.version, **ContactFunctor(LIBRARY).versions()},
-        "machine": machine.machine_line(),
-        "date": machine.now(),
+        "versions": {"yade": yade.config.version, "library": potential_particles.library_version(),
+                     "glue": potential_particles.__version__},
+        **made("make wedge"),
     }
     write_summary(out / "summary.json", summary)
     print_results(run, summary, out)
@@ -343,30 +335,13 @@ def print_results(run, summary, out):
 
 def print_cases(rows):
     """One line a wedge."""
-    heads = ["wedge", "joints", "closed form", "slides at", "holds at"]
-    heads += ["error", "target", "direction", "N_A", "N_B", ""]
-    cells = [heads] + [
-        (
-            row["name"],
-            f"{row['plane_a']} {row['plane_b']}",
-            f"{row['closed_form_degrees']:.4f}",
-            f"{row['slides_at_degrees']:.4f}",
-            f"{row['holds_at_degrees']:.4f}",
-            f"{row['error_degrees']:+.5f}",
-            f"{row['target_degrees']:g}",
-            f"{row['direction_error_degrees']:.0e}",
-            f"{row['force_a_error']:+.0e}",
-            f"{row['force_b_error']:+.0e}",
-            "met" if row["within_target"] else "MISSED",
-        )
-        for row in rows
-    ]
-    widths = [max(len(line[i]) for line in cells) for i in range(len(heads))]
-    print()
-    for line in cells:
-        left = [text.ljust(width) for text, width in zip(line[:2], widths)]
-        right = [text.rjust(width) for text, width in zip(line[2:], widths[2:])]
-        print("  " + "  ".join(left + right).rstrip())
+    heads = ("wedge", "joints", "closed form", "slides at", "holds at", "error", "target", "direction", "N_A", "N_B", "")
+    print_columns([heads] + [
+        (row["name"], f"{row['plane_a']} {row['plane_b']}",
+         *(f"{row[f'{name}_degrees']:.4f}" for name in ("closed_form", "slides_at", "holds_at")),
+         f"{row['error_degrees']:+.5f}", f"{row['target_degrees']:g}", f"{row['direction_error_degrees']:.0e}",
+         f"{row['force_a_error']:+.0e}", f"{row['force_b_error']:+.0e}", "met" if row["within_target"] else "MISSED")
+        for row in rows])
     print("  (degrees; direction: between sliding and the line of intersection; N: normal forces, relative)")
 
 

@@ -11,7 +11,7 @@ use potential_particles::nalgebra::Vector3;
 use potential_particles::rock::{JointSet, SliceSettings, slice};
 use scenes::{arch, block, pushed, v, wall, wedge};
 use serde_json::{Value, json};
-use target::at_most;
+use target::{at_most, own_time};
 
 const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
 /// Bricks of a course and courses of the walls.
@@ -100,13 +100,6 @@ fn rock_mass(count: u32) -> Scene {
     let is_held = |block: usize| !mass.blocks[block].corners.iter().all(is_inside);
     let strength = JointStrength { friction: 0.6, ..JointStrength::default() };
     pushed(Scene::of_rock(&mass, v(0.0, 0.0, -26e3), is_held, |_| strength))
-}
-
-/// Seconds for which this thread has had a processor, by Linux.
-fn own_time() -> f64 {
-    std::thread::yield_now();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").expect("Linux");
-    1e-9 * told.split(' ').next().and_then(|told| told.parse::<f64>().ok()).expect("nanoseconds")
 }
 
 /// The associated load factor of a scene, its processor time and the largest memory so far.

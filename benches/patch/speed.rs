@@ -1,9 +1,10 @@
 //! Time and error of contact patches by kind, in units of one evaluation of both bodies.
 
-use crate::cases::{Case, kinds};
+use crate::bodies::Pair;
+use crate::cases::kinds;
 use crate::scene::evaluation::Plain;
 use crate::scene::{polyhedra, random};
-use nalgebra::Matrix3;
+use nalgebra::{Matrix3, Vector3};
 use potential_particles::{Patch, PatchFlags, PatchScratch, PatchSettings, PatchState, patch_of_contact};
 use serde_json::{Value, json};
 use std::hint::black_box;
@@ -19,7 +20,7 @@ const ROUNDINGS: [f64; 3] = [1e-3, 1e-2, 5e-2];
 const SPHERICITIES: [f64; 2] = [0.0, 0.02];
 const DEPTHS: [f64; 2] = [0.02, 0.2];
 
-fn patch(case: &Case, tolerance: f64, scratch: &mut PatchScratch) -> Patch {
+fn patch(case: &Pair, tolerance: f64, scratch: &mut PatchScratch) -> Patch {
     let settings = PatchSettings { tolerance, with_energy: false, ..PatchSettings::default() };
     patch_of_contact(&case.a, &case.pose_a, &case.b, &case.pose_b, &case.contact, &settings, scratch, |_| ())
         .expect("a patch of an overlapping contact")
@@ -43,7 +44,7 @@ pub fn time(mut call: impl FnMut()) -> f64 {
 }
 
 /// The unit: S, ∇S and ∇²S of both bodies at the contact point.
-fn unit(case: &Case) -> f64 {
+fn unit(case: &Pair) -> f64 {
     let plain = [Plain::new(&case.a), Plain::new(&case.b)];
     let points = [case.pose_a, case.pose_b].map(|pose| pose.to_local(&case.contact.point));
     time(|| {
@@ -52,7 +53,7 @@ fn unit(case: &Case) -> f64 {
     })
 }
 
-fn measured(kind: &str, case: &Case, unit: f64) -> Value {
+fn measured(kind: &str, case: &Pair, unit: f64) -> Value {
     let mut scratch = PatchScratch::new();
     let finest = patch(case, 1e-11, &mut scratch);
     let force = finest.force.norm();
@@ -83,10 +84,10 @@ fn measured(kind: &str, case: &Case, unit: f64) -> Value {
 /// Units of a patch that is carried on: the most of all kinds.
 pub fn carried(unit: f64) -> f64 {
     let (settings, mut scratch) = (PatchSettings::default(), PatchScratch::new());
-    let mut of = |case: &Case| {
+    let mut of = |case: &Pair| {
         let mut state = PatchState::default();
         let mut look = || {
-            let Case { a, b, pose_a, pose_b, contact } = black_box(case);
+            let Pair { a, b, pose_a, pose_b, contact } = black_box(case);
             let patch = state.patch_of_contact(a, pose_a, b, pose_b, contact, &settings, &mut scratch);
             patch.expect("a patch of an overlapping contact").flags
         };
@@ -102,7 +103,7 @@ pub fn measure(quick: bool) -> (f64, Vec<Value>) {
     let unit = unit(&kinds(1e-2, 0.02, 1e-3)[4].1);
     println!("unit: {:.1} ns", 1e9 * unit);
     let mut results = Vec::new();
-    let mut add = |kind: &str, case: &Case, r: f64, k: f64, depth: f64| {
+    let mut add = |kind: &str, case: &Pair, r: f64, k: f64, depth: f64| {
         let mut row = measured(kind, case, unit);
         (row["r"], row["k"], row["depth"]) = (json!(r), json!(k), json!(depth));
         results.push(row);
@@ -117,7 +118,8 @@ pub fn measure(quick: bool) -> (f64, Vec<Value>) {
     }
     let mut random = random::Random::seeded(300);
     let [a, b] = [0; 2].map(|_| polyhedra::ball(300, &mut random));
-    let case = Case::above(a, Matrix3::identity(), b, Matrix3::identity(), [0.03, 0.05], 1e-3);
+    let (level, way) = (Matrix3::identity(), Vector3::new(0.03, 0.05, 1.0).normalize());
+    let case = Pair::at_overlap(a, &level, b, &level, &way, 1e-3);
     add("300 + 300 planes", &case, 0.01, 0.05, 0.1);
     (unit, results)
 }

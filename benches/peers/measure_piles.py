@@ -16,6 +16,8 @@ from polyhedron import Polyhedron
 
 sys.path.insert(0, str(install.TOP / "studies"))
 
+from summary import markdown, target
+
 FOLDER = install.OUT / "piles"
 OURS, POTENTIAL, POLYHEDRA, LEVEL_SET, LAMMPS = "ours", "potential", "polyhedra", "levelset", "lammps"
 LABELS = {
@@ -172,37 +174,30 @@ def targets(piles):
         if ours is None:
             continue
         ratio = peer["fastest_ms"] / ours if peer else None
-        found.append({
-            "name": f"{count:,} pyramids {stage}: step of the fastest peer / ours", "sense": "at least", "target": 1.0,
-            "measured": ratio, "met": None if ratio is None else ratio >= 1.0, "peer": peer["label"] if peer else None
-        })
+        found.append(target(f"{count:,} pyramids {stage}: step of the fastest peer / ours", "at least", 1.0, ratio,
+                            peer=peer["label"] if peer else None))
     mine = [row for row in known if row["kind"] == OURS]
     lost = sum(row["lost"] + (row["failures"] or 0) for row in mine)
     if mine:
-        found.append({
-            "name": "our piles: bodies lost, and failures", "sense": "at most", "target": 0, "measured": lost,
-            "met": lost == 0
-        })
+        found.append(target("our piles: bodies lost, and failures", "at most", 0, lost))
     return found
 
 
 def table(piles):
     heads = ("bodies", "", "stage", "a step, ms", "body-steps a second a core", "contacts", "lost", "kinetic energy, J",
              "energy error of a bounce", "lines")
-    lines = ["| " + " | ".join(heads) + " |", "|---" * len(heads) + "|"]
+    rows = []
     for row in piles:
         if row.get("missing"):
-            lines.append(
-                f"| {row.get('count', '')} | {row['label']} | {row.get('stage', '')} | not measured: {row['missing']} | | | | | | |"
-            )
+            rows.append((row.get("count", ""), row["label"], row.get("stage", ""), f"not measured: {row['missing']}",
+                         *[""] * 6))
             continue
         error = row.get("energy_error")
-        cells = [
+        rows.append([
             f"{row['count']:,}", row["label"], row["stage"] + ("" if row.get("settled", True) else " *"),
             f"{row['fastest_ms']:.3g}", f"{row['body_steps_per_second']:,.0f}",
             f"{row['contacts']:,}" if "contacts" in row else "–",
             str(row["lost"]), f"{row['kinetic_J']:.2g}", "–" if error is None else f"{error:.1e} ({row['bounces']})",
             str(row["lines"])
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        ])
+    return markdown(heads, rows)

@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 
 import install
 from contestants import DRAKE, OURS
+from summary import markdown, target
 
 TOLERANCE = 1e-4  # of our patch: what laws take
 ROUNDING = 2e-4  # of the boxes that meet with their edges; the closed forms, of sharp boxes, differ by about that
@@ -221,31 +222,24 @@ def targets(made):
         of_case = [row for row in made if row["case"] == name]
         ours = next(row for row in of_case if row["program"] == OURS)
         error = max(ours["force_error"], ours["torque_error"])
-        found.append({
-            "name": f"patch, {name}: our force and torque against the closed form", "sense": "at most", "target": 1e-3,
-            "measured": error, "met": bool(error <= 1e-3)
-        })
+        found.append(target(f"patch, {name}: our force and torque against the closed form", "at most", 1e-3, error))
         drakes = [row for row in of_case if row["program"] == DRAKE]
         if not drakes:
             continue
         near = [row for row in drakes if max(row["force_error"], row["torque_error"]) <= NEAR_ENOUGH]
         ratio = min(row["microseconds"] for row in near) / ours["microseconds"] if near else None
-        found.append({
-            "name": f"patch, {name}: Drake within {NEAR_ENOUGH:.0%} / ours, time from nothing", "sense": "at least",
-            "target": 1.0, "measured": ratio, "met": None if ratio is None else bool(ratio >= 1.0)
-        })
+        found.append(target(f"patch, {name}: Drake within {NEAR_ENOUGH:.0%} / ours, time from nothing", "at least", 1.0,
+                            ratio))
     return found
 
 
 def table(made):
-    lines = [
-        "| bodies | code | polygons | error of the force | of the torque | of the area | a call, µs |",
-        "|---|---|---|---|---|---|---|"
-    ]
+    heads = ("bodies", "code", "polygons", "error of the force", "of the torque", "of the area", "a call, µs")
+    rows = []
     for row in made:
         label = "ours" if row["program"] == OURS else "Drake" + (f", hint {row['hint']}" if row["hint"] else "")
-        errors = " | ".join(f"{row[key]:.1e}" for key in ("force_error", "torque_error", "area_error"))
+        errors = (f"{row[key]:.1e}" for key in ("force_error", "torque_error", "area_error"))
         time = f"{row['microseconds']:.1f}" + (f"; carried on {row['carried_microseconds']:.2f}"
                                                if row["program"] == OURS else "")
-        lines.append(f"| {row['case']} | {label} | {row.get('polygons', '–')} | {errors} | {time} |")
-    return "\n".join(lines)
+        rows.append((row["case"], label, row.get("polygons", "–"), *errors, time))
+    return markdown(heads, rows)

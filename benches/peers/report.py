@@ -9,6 +9,7 @@ import matplotlib.pyplot as plt
 from absent import PUBLISHED
 from contestants import CONTACT, CONTESTANTS, OURS
 from measure_pairs import CURVE_GROUPS
+from summary import markdown, target
 from pairs import CHUNKY, FAR, LYING, NEAR_BY, POTENTIAL, ROUNDED, SHARP, TOUCHING
 
 # The call whose time counts against the peers': alone, and as in a step of a simulation.
@@ -43,16 +44,9 @@ def targets(rows):
             if ours is None:
                 continue
             ratio = rival["microseconds"] / ours if rival else None
-            found.append({
-                "name": f"{describe(of_group[0])}, {'from nothing' if warmth == 'cold' else 'from memory'}: fastest peer / ours",
-                "sense": "at least",
-                "target": 1.0,
-                "measured": ratio,
-                "met": None if ratio is None else ratio >= 1.0,
-                "peer": rival["label"] if rival else None,
-                "group": group,
-                "warmth": warmth,
-            })
+            name = f"{describe(of_group[0])}, {'from nothing' if warmth == 'cold' else 'from memory'}: fastest peer / ours"
+            found.append(target(name, "at least", 1.0, ratio, peer=rival["label"] if rival else None, group=group,
+                                warmth=warmth))
     return found + soundness(rows)
 
 
@@ -66,8 +60,7 @@ def soundness(rows):
         ("our contacts missed or made up", count("wrong"), 0),
         ("our worst error of the overlap, of the size", worst, 1e-9),
     )
-    return [{"name": name, "sense": "at most", "target": limit, "measured": value, "met": value <= limit}
-            for name, value, limit in limits]
+    return [target(name, "at most", limit, value) for name, value, limit in limits]
 
 
 def describe(row):
@@ -76,55 +69,48 @@ def describe(row):
 
 def pair_table(rows):
     """Microseconds a call, cold / warm; the last columns: fastest peer over ours."""
-    lines = [
-        "| planes | edges | place | ours: alone | ours: in a batch | " + " | ".join(HEADS)
-        + " | peer/ours cold | warm |"
-    ]
-    lines.append("|---|---|---|" + "---|" * (len(HEADS) + 4))
+    lines = []
     judged = {(one.get("group"), one.get("warmth")): one["measured"] for one in targets(rows)}
     for group in _unique(row["group"] for row in rows):
         of_group = [row for row in rows if row["group"] == group]
         first = of_group[0]
         cells = [str(first["planes"]), EDGES[first["edges"]], PLACES[first["place"]]]
         cells += [_both(of_group, *key) for key in ((OURS, "midway"), (OURS, "carried"), *COLUMNS)]
-        cells += [_ratio(judged.get((group, warmth))) for warmth in ("cold", "warm")]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        lines.append(cells + [_ratio(judged.get((group, warmth))) for warmth in ("cold", "warm")])
+    heads = ("planes", "edges", "place", "ours: alone", "ours: in a batch", *HEADS, "peer/ours cold", "warm")
+    return markdown(heads, lines)
 
 
 def distance_table(rows):
     """Of bodies that are near: the distance to the end, by those who give it."""
     labels = {(row["program"], row["way"]): row["label"] for row in rows if row["work"] != CONTACT}
-    lines = ["| planes | edges | " + " | ".join(labels.values()) + " |", "|---|---|" + "---|" * len(labels)]
+    lines = []
     for group in _unique(row["group"] for row in rows if row["work"] != CONTACT):
         of_group = [row for row in rows if row["group"] == group]
-        cells = [str(of_group[0]["planes"]), EDGES[of_group[0]["edges"]], *(_both(of_group, *key) for key in labels)]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        lines.append([of_group[0]["planes"], EDGES[of_group[0]["edges"]], *(_both(of_group, *key) for key in labels)])
+    return markdown(("planes", "edges", *labels.values()), lines)
 
 
 def contestant_table(rows, found):
     """Who computes what, with what stop rule, how exactly, and what a contact law gets."""
-    lines = ["| contestant | computes | settings, stop rule | gives | worst error, of | failed | wrong | answers |"]
-    lines.append("|---|---|---|---|---|---|---|---|")
+    heads = ("contestant", "computes", "settings, stop rule", "gives", "worst error, of", "failed", "wrong", "answers")
+    lines = []
     for one in CONTESTANTS:
         of_one = [row for row in rows if (row["program"], row["way"]) == (one.program, one.way) and row.get("pairs")]
         cells = [one.label, one.computes, one.settings, one.gives]
         if not of_one:
             why = found.missing.get(one.program, "no answer")
-            lines.append("| " + " | ".join([*cells, f"not measured: {why}", "", "", ""]) + " |")
+            lines.append([*cells, f"not measured: {why}", "", "", ""])
             continue
         worst = max((row["worst_error"] for row in of_one if row["worst_error"] is not None), default=None)
         total = lambda key: sum(row[key] for row in of_one)
         error = "–" if worst is None else f"{worst:.1e}, {of_one[0]['error_of']}"
-        lines.append("| " + " | ".join([*cells, error, *(str(total(key))
-                                                         for key in ("failed", "wrong", "pairs"))]) + " |")
-    return "\n".join(lines)
+        lines.append([*cells, error, *map(total, ("failed", "wrong", "pairs"))])
+    return markdown(heads, lines)
 
 
 def published_table():
-    lines = ["| who | what | their figure | their machine | here |", "|---|---|---|---|---|"]
-    return "\n".join([*lines, *("| " + " | ".join(row) + " |" for row in PUBLISHED)])
+    return markdown(("who", "what", "their figure", "their machine", "here"), PUBLISHED)
 
 
 def draw(rows, curves, line, path):

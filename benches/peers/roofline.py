@@ -25,8 +25,7 @@ import matplotlib.pyplot as plt
 import counts
 import install
 import latency
-import machine
-from summary import print_table, write_summary
+from summary import made, markdown, print_table, target, write_summary
 
 OUT = install.TOP / "out" / "roofline"
 PAIRS = install.OUT / "pairs_potential.txt"
@@ -81,11 +80,10 @@ def main():
     cycle = float(subprocess.run(clock, check=True, capture_output=True, text=True).stdout)
     calls = [row for group in GROUPS for row in measured([*command, PAIRS], cycle, *group)]
     step = of_step()
-    line = f"{machine.machine_line()}, {1 / cycle:.2f} GHz, {machine.now()}"
     summary = {
-        "machine": machine.machine_line(), "date": machine.now(), "command": "make roofline",
-        "nanoseconds_a_cycle": cycle, "calls": calls, "step": step, "targets": [target(row) for row in calls]
+        **made("make roofline"), "nanoseconds_a_cycle": cycle, "calls": calls, "step": step, "targets": [judged(row) for row in calls]
     }
+    line = f"{summary['machine']}, {1 / cycle:.2f} GHz, {summary['date']}"
     write_summary(OUT / "summary.json", summary)
     (OUT / "table.md").write_text("\n\n".join([f"*{line}*", call_table(calls), step_table(step)]) + "\n")
     draw(calls, line)
@@ -93,11 +91,8 @@ def main():
     print_table([("results", f"{OUT}: table.md, roofline.png, summary.json")])
 
 
-def target(row):
-    return {
-        "name": f"{row['bodies']}, {row['way']}: highest limit / measured", "sense": "at least", "target": LEAST_SHARE,
-        "measured": row["share"], "met": row["share"] >= LEAST_SHARE
-    }
+def judged(row):
+    return target(f"{row['bodies']}, {row['way']}: highest limit / measured", "at least", LEAST_SHARE, row["share"])
 
 
 def measured(command, cycle, group, label, pairs):
@@ -150,11 +145,9 @@ def of_step():
 
 def call_table(calls):
     """Measured cycles, counts, and the least number of cycles by each limit."""
-    lines = [
-        "| bodies | call | cycles, measured | instructions | divisions, roots | bytes from the second cache | "
-        + " | ".join(f"least: {name}" for name in ALL_LIMITS) + " | highest / measured | each after the other |",
-        "|---" * (8 + len(ALL_LIMITS)) + "|"
-    ]
+    heads = ("bodies", "call", "cycles, measured", "instructions", "divisions, roots", "bytes from the second cache",
+             *(f"least: {name}" for name in ALL_LIMITS), "highest / measured", "each after the other")
+    rows = []
     for row in calls:
         count = row["counts"]
         misses = counts.LINE * (count["load misses"] + count["store misses"] + count["code misses"])
@@ -163,27 +156,21 @@ def call_table(calls):
             for name in ALL_LIMITS
         ]
         waits = row["one_after_the_other"]
-        cells = [
+        rows.append([
             row["bodies"], row["way"], f"{row['cycles']:,.0f}", f"{count['instructions']:,.0f}",
             f"{count['divisions']:.0f}, {count['roots']:.0f}", f"{misses:,.0f}", *limits, f"{row['share']:.2f}",
             f"{waits / row['nanoseconds']:.2f}" if waits else "–"
-        ]
-        lines.append("| " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+        ])
+    return markdown(heads, rows)
 
 
 def step_table(step):
     whole = step["functions"]["step"]["instructions"]
-    lines = [
-        f"200 pyramids at rest: {step['contacts']} contacts, {step['pairs']} pairs.", "",
-        "| part of a step | instructions | share | lines of code fetched anew | lines of data |",
-        "|---|---|---|---|---|"
-    ]
-    for name, count in step["functions"].items():
-        lines.append(
-            f"| {name} | {count['instructions']:,.0f} | {count['instructions'] / whole:.0%} | {count['code misses']:,.0f} | "
-            f"{count['load misses'] + count['store misses']:,.0f} |")
-    return "\n".join(lines)
+    rows = [(name, f"{count['instructions']:,.0f}", f"{count['instructions'] / whole:.0%}",
+             f"{count['code misses']:,.0f}", f"{count['load misses'] + count['store misses']:,.0f}")
+            for name, count in step["functions"].items()]
+    heads = ("part of a step", "instructions", "share", "lines of code fetched anew", "lines of data")
+    return (f"200 pyramids at rest: {step['contacts']} contacts, {step['pairs']} pairs.\n\n" + markdown(heads, rows))
 
 
 def draw(calls, line):

@@ -17,12 +17,11 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies"))
 
 import install
-import machine
 import measure_pairs
 import measure_piles
 import patches
 import report
-from summary import print_table, write_summary
+from summary import made, print_table, print_targets, write_summary
 
 
 def main():
@@ -34,12 +33,11 @@ def main():
     started = time.perf_counter()
     print("Contestants", flush=True)
     found = install.everybody()
-    line = f"{machine.machine_line()}, {machine.now()}"
     summary = {
-        "machine": machine.machine_line(), "date": machine.now(),
-        "command": "make peers" + (" QUICK=1" if options.quick else ""), "versions": found.versions,
+        **made("make peers" + (" QUICK=1" if options.quick else "")), "versions": found.versions,
         "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []
     }
+    line = f"{summary['machine']}, {summary['date']}"
     parts = [f"*{line}; {summary['command']}*"]
     if options.only in (None, "pairs"):
         parts += pairs_part(found, options.quick, line, summary)
@@ -87,14 +85,6 @@ def table_part(name, heading, of, found, quick, summary):
     summary[name] = rows
     summary["targets"] += of.targets(rows)
     return [f"## {heading}", of.table(rows)]
-
-
-def print_targets(targets):
-    for target in targets:
-        measured = "–" if target["measured"] is None else f"{target['measured']:.3g}"
-        verdict = {True: "met", False: "MISSED", None: "not measured"}[target["met"]]
-        sense = "<=" if target["sense"] == "at most" else ">="
-        print(f"  {target['name']:<86} {sense} {target['target']:<6g} {measured:>8}  {verdict}")
 
 
 if __name__ == "__main__":

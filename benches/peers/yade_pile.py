@@ -23,25 +23,21 @@ import potential_particles  # noqa: F401 (the studies' pyramid takes its mass fr
 import numpy as np
 import yade
 import yade.log
-from yade import Body, O, Quaternion, Vector3, polyhedra_utils, utils
+from yade import O, Quaternion, Vector3, polyhedra_utils, utils
 
-import pyramids
+import pile
 import yade_level_set
 from bodies import potential_body, reach
-from box import BODY_MASK, SLAB_MASK, SLAB_ONLY, Box
-from contact_functor import BUILTIN, LIBRARY, ContactFunctor
-from loose_grid import loose_grid
+from box import BODY_MASK, SLAB_MASK, SLAB_ONLY
+from contact_functor import BUILTIN, LIBRARY
 from polyhedron import Polyhedron
-from pyramid import pyramid
 
 OURS, POTENTIAL, POLYHEDRA, LEVEL_SET = "ours", "potential", "polyhedra", "levelset"
 SEED = 7
-STATES = ("pos", "ori", "vel", "angVel")
-VERLET_DISTANCE = 0.03 * pyramids.SIZE  # with BoundWatch, which ours has; the others' boxes must be exact at every step
 # Dissipation: the potential particles' law has dashpots, and YADE's local damping as little as in make demo; the laws
 # of the others have none, and get more of YADE's.
 LOCAL_DAMPING = {OURS: 0.1, POTENTIAL: 0.1, POLYHEDRA: 0.3, LEVEL_SET: 0.3}
-FACE = 0.5 * pyramids.SIZE**2  # area on which the spring of a volume is as stiff as that of an overlap
+FACE = 0.5 * pile.SIZE**2  # area on which the spring of a volume is as stiff as that of an overlap
 BOUNCE_STEPS_PER_STEP = 20
 DROP, TILT = 0.05, (0.9, 0.3, 0.2, 0.1)  # of the bouncing body: height in m, orientation
 
@@ -52,25 +48,18 @@ def planes_of(shape):
     return planes[:, :3], planes[:, 3]
 
 
-class Scene:
-    """Engines and the shape of one kind; `ids` of its bodies."""
+class Scene(pile.Pile):
+    """The pile with another kind of bodies, their walls and engines."""
 
     def __init__(self, kind, count, dissipation=True):
-        self.kind, self.dissipation, self.ids = kind, dissipation, []
-        self.shape = pyramid(pyramids.SIZE)
-        self.grid = loose_grid(count, reach(self.shape), pyramids.JITTER, SEED)
-        self.box = Box(self.grid.half_width, self.grid.half_width, self.grid.height, thickness=pyramids.SIZE)
-        self.contact = ContactFunctor(LIBRARY if kind == OURS else BUILTIN,
-                                      measure_time=False) if kind in (OURS, POTENTIAL) else None
-        self.angle = np.radians(pyramids.FRICTION_ANGLE) if dissipation else 0.0
-        O.reset()
-        O.timingEnabled = True
+        super().__init__(count, LIBRARY if kind == OURS else BUILTIN, seed=SEED, measure_time=False)
+        self.kind, self.dissipation, self.is_potential = kind, dissipation, kind in (OURS, POTENTIAL)
+        self.angle = np.radians(pile.FRICTION_ANGLE) if dissipation else 0.0
         self.material = self._material()
-        O.materials.append(self.material)
-        self._walls()
+        O.reset()
+        self.start()
 
-    def add(self, position, orientation, velocity=(0, 0, 0), spin=(0, 0, 0)):
-        """A pyramid; orientation w, x, y, z."""
+    def body(self, position, orientation):
         body = {
             OURS: self._potential, POTENTIAL: self._potential, POLYHEDRA: self._polyhedron, LEVEL_SET: self._level_set
         }[self.kind]()
@@ -78,15 +67,8 @@ class Scene:
         own, offset = getattr(self, "own", (Quaternion.Identity, Vector3.Zero))
         body.state.pos = body.state.refPos = Vector3(*map(float, position)) + turn * offset
         body.state.ori = body.state.refOri = turn * own
-        body.state.vel, body.state.angVel = Vector3(*map(float, velocity)), Vector3(*map(float, spin))
         body.mask = BODY_MASK
-        self.ids.append(O.bodies.append(body))
-
-    def finish(self):
-        O.engines = self._engines()
-        if self.contact:
-            self.contact.prepare()
-        O.dt = pyramids.TIME_STEP
+        return body
 
     def states(self):
         bodies = [O.bodies[i].state for i in self.ids]
@@ -102,7 +84,7 @@ class Scene:
     def energy(self):
         """Of motion and in the field of gravity, J."""
         bodies = [O.bodies[i].state for i in self.ids]
-        return utils.kineticEnergy() + sum(state.mass * state.pos[2] for state in bodies) * pyramids.GRAVITY
+        return utils.kineticEnergy() + sum(state.mass * state.pos[2] for state in bodies) * pile.GRAVITY
 
     def contacts(self):
         measure = "penetrationVolume" if self.kind == POLYHEDRA else "penetrationDepth"
@@ -111,21 +93,21 @@ class Scene:
     # --- parts ------------------------------------------------------------------------------
 
     def _material(self):
-        common = dict(frictionAngle=self.angle, density=pyramids.DENSITY)
+        common = dict(frictionAngle=self.angle, density=pile.DENSITY)
         if self.kind == POLYHEDRA:
             # The law takes the stiffness of two bodies in a row; N/m^3.
-            return yade.PolyhedraMat(young=2.0 * pyramids.NORMAL_STIFFNESS / FACE, poisson=0.5, **common)
+            return yade.PolyhedraMat(young=2.0 * pile.NORMAL_STIFFNESS / FACE, poisson=0.5, **common)
         return yade.FrictMat(young=1e8, poisson=0.5, **common)
 
-    def _walls(self):
-        if self.contact:
-            O.bodies.append(self.box.slabs(self.contact.shape_class, self.material))
-            return
+    def walls(self):
+        if self.is_potential:
+            return super().walls()
         h = self.box.half_x
-        for place, axis, sense in ((0.0, 2, 1), (-h, 0, 1), (h, 0, -1), (-h, 1, 1), (h, 1, -1)):
-            wall = utils.wall(place, axis, sense=sense, material=self.material)
+        walls = [utils.wall(place, axis, sense=sense, material=self.material)
+                 for place, axis, sense in ((0.0, 2, 1), (-h, 0, 1), (h, 0, -1), (-h, 1, 1), (h, 1, -1))]
+        for wall in walls:
             wall.mask = SLAB_MASK
-            O.bodies.append(wall)
+        return walls
 
     def _potential(self):
         return potential_body(self.contact.shape_class, self.shape, self.material)
@@ -135,7 +117,7 @@ class Scene:
         corners = self._sharp()
         body = polyhedra_utils.polyhedra(self.material, v=[Vector3(*map(float, corner)) for corner in corners])
         self.own = (body.state.ori, body.state.pos)
-        mass = self.shape.volume * pyramids.DENSITY
+        mass = self.shape.volume * pile.DENSITY
         body.state.inertia *= mass / body.state.mass
         body.state.mass = mass
         return body
@@ -152,25 +134,20 @@ class Scene:
             core = Polyhedron(*planes_of(self.shape))
             self.field = yade_level_set.signed_distances(core.corners, core.triangles, self.shape.r)
         body = yade_level_set.body(*self.field, self.material)
-        body.state.mass = self.shape.volume * pyramids.DENSITY
-        body.state.inertia = Vector3(*self.shape.inertia) * pyramids.DENSITY
+        body.state.mass = self.shape.volume * pile.DENSITY
+        body.state.inertia = Vector3(*self.shape.inertia) * pile.DENSITY
         body.aspherical = True
         return body
 
-    def _engines(self):
+    def engines(self):
         damping = LOCAL_DAMPING[self.kind] if self.dissipation else 0.0
-        motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pyramids.GRAVITY),
+        motion = yade.NewtonIntegrator(damping=damping, exactAsphericalRot=True, gravity=(0, 0, -pile.GRAVITY),
                                        label="motion")
-        if self.contact:
-            reset, collider, loop, _ = pyramids.engines(self.contact)
-            if not self.dissipation:
-                loop.physDispatcher.functors[0].viscousDamping = 0.0
-            engines = [reset, collider, loop, motion]
-            if self.kind == OURS:
-                collider.boundDispatcher.functors = [yade.Bo1_ConicPP_Aabb()]
-                collider.verletDist = VERLET_DISTANCE
-                engines.insert(1, yade.BoundWatch(label="watch"))
-            return engines
+        if self.is_potential:
+            viscous = pile.VISCOUS_DAMPING if self.dissipation else 0.0
+            engines = pile.engines(self.contact.functor, self.contact.loop, viscous=viscous, local=damping)
+            # The others' boxes must be exact at every step.
+            return pile.watched(engines) if self.kind == OURS else engines
         boxes = [{POLYHEDRA: yade.Bo1_Polyhedra_Aabb, LEVEL_SET: yade.Bo1_LevelSet_Aabb}[self.kind](),
                  yade.Bo1_Wall_Aabb()]
         collider = yade.InsertionSortCollider(boxes, verletDist=0.0, avoidSelfInteractionMask=SLAB_ONLY,
@@ -185,8 +162,8 @@ class Scene:
                 [yade.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
                 label="contacts",
             )
-        springs = dict(kn=yade.MatchMaker(algo="val", val=pyramids.NORMAL_STIFFNESS),
-                       ks=yade.MatchMaker(algo="val", val=pyramids.SHEAR_STIFFNESS))
+        springs = dict(kn=yade.MatchMaker(algo="val", val=pile.NORMAL_STIFFNESS),
+                       ks=yade.MatchMaker(algo="val", val=pile.SHEAR_STIFFNESS))
         return yade.InteractionLoop(
             [yade.Ig2_LevelSet_LevelSet_ScGeom(), yade.Ig2_Wall_LevelSet_ScGeom()],
             [yade.Ip2_FrictMat_FrictMat_FrictPhys(**springs)],
@@ -198,8 +175,7 @@ class Scene:
 def fall():
     """From the loose grid to rest: keeps the states while the bodies fall onto each other, and those at rest."""
     scene = Scene(JOB["kind"], JOB["count"])
-    for position, orientation in zip(scene.grid.positions, scene.grid.orientations):
-        scene.add(position, orientation)
+    scene.lay(scene.grid.positions, scene.grid.orientations)
     scene.finish()
     O.run(JOB["falling_step"], True)
     np.savez(JOB["save"][0], **scene.states())
@@ -214,8 +190,7 @@ def windows():
     """Milliseconds a step, in windows; contacts, energy and who is lost."""
     scene = Scene(JOB["kind"], JOB["count"])
     started = np.load(JOB["start"])
-    for row in zip(*(started[name] for name in STATES)):
-        scene.add(*row)
+    scene.lay(*(started[name] for name in pile.STATES))
     scene.finish()
     budget = time.perf_counter() + JOB["seconds"]
     energies = [scene.energy()]
@@ -249,7 +224,7 @@ def bounce():
     the start.
     """
     scene = Scene(JOB["kind"], 1, dissipation=False)
-    scene.add((0, 0, reach(scene.shape) + DROP), TILT)
+    scene.lay([(0, 0, reach(scene.shape) + DROP)], [TILT])
     scene.finish()
     # So short a step that what is left is the geometry's: the laws give no force in the first step of a contact.
     O.dt /= BOUNCE_STEPS_PER_STEP
@@ -267,20 +242,20 @@ def bounce():
 def describe():
     """Shape, mass and laws, for those who are not YADE."""
     scene = Scene(OURS, JOB["count"])
-    (normals, offsets), mass = planes_of(scene.shape), scene.shape.volume * pyramids.DENSITY
+    (normals, offsets), mass = planes_of(scene.shape), scene.shape.volume * pile.DENSITY
     # Of the critical damping of two bodies, whose effective mass at a corner is about a quarter.
-    damping = 2.0 * pyramids.VISCOUS_DAMPING * np.sqrt(pyramids.NORMAL_STIFFNESS * 0.25 * mass)
+    damping = 2.0 * pile.VISCOUS_DAMPING * np.sqrt(pile.NORMAL_STIFFNESS * 0.25 * mass)
     return {
         "normals": normals.tolist(),
         "offsets": offsets.tolist(),
         "r": scene.shape.r,
         "mass": mass,
-        "inertia": [value * pyramids.DENSITY for value in scene.shape.inertia],
+        "inertia": [value * pile.DENSITY for value in scene.shape.inertia],
         "half_width": float(scene.box.half_x),
         "height": float(scene.box.height),
         "laws": [
-            pyramids.NORMAL_STIFFNESS, damping, 0.5 * damping,
-            float(np.tan(scene.angle)), pyramids.GRAVITY, pyramids.TIME_STEP
+            pile.NORMAL_STIFFNESS, damping, 0.5 * damping,
+            float(np.tan(scene.angle)), pile.GRAVITY, pile.TIME_STEP
         ],
     }
 

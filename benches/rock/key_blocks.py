@@ -19,7 +19,7 @@ sys.path[:0] = [str(TOP / "tests/yade"), str(TOP / "studies")]
 
 import slope_cuts  # noqa: E402
 from progress import Progress  # noqa: E402
-from summary import write_summary  # noqa: E402
+from summary import target, write_summary  # noqa: E402
 
 CUTS, TURNS = int(os.environ.get("CUTS") or 1000), int(os.environ.get("TURNS") or 100)
 first = int(os.environ.get("SEED") or time.time_ns() % 10**9)
@@ -72,8 +72,7 @@ wrong = int(sum(not row["agrees"] for row in rows))
 unlike = "cuts without an answer of limit analysis, or with a higher factor than block theory"
 other = int(sum(row["analysis"] in ("no answer", "clamped") for row in rows))
 summary["targets"] = [one for one in summary["targets"] if one["name"] not in (name, unlike)] + [
-    {"name": of, "sense": "at most", "target": 0, "measured": count, "met": count == 0}
-    for of, count in ((name, wrong), (unlike, other))]
+    target(name, "at most", 0, wrong), target(unlike, "at most", 0, other)]
 summary["key_blocks"] = {
     "cuts": len(rows), "seed": first, "limit_analysis": {f"{mode}, {said}": n for (mode, said), n in analyses.items()},
     "moves": int(sum(row["moves"] for row in rows)), "differ": wrong,

@@ -8,7 +8,7 @@ use potential_particles::Plane;
 use potential_particles::rock::{FaceOf, Joint, JointSet, RockMass, SliceSettings, slice};
 use serde_json::{Value, json};
 use std::time::Instant;
-use target::{at_most, write_summary};
+use target::{at_most, own_time, write_summary};
 
 /// Half of the side of the domains, m.
 const HALF: f64 = 50.0;
@@ -87,16 +87,6 @@ fn joints(count: u32) -> Vec<Joint> {
         set.joints([0.0; 3], 1.2 * HALF).expect("a joint set")
     };
     [(5.0, 10.0), (85.0, 100.0), (80.0, 190.0)].into_iter().flat_map(set).collect()
-}
-
-/// Seconds for which this thread has had a processor, by Linux; where that does not tell, of the clock.
-fn own_time() -> f64 {
-    // Linux counts up to here when a thread gives way.
-    std::thread::yield_now();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = told.and_then(|told| told.split(' ').next()?.parse::<f64>().ok());
-    let clock = || std::time::SystemTime::UNIX_EPOCH.elapsed().map_or(0.0, |since| since.as_secs_f64());
-    nanoseconds.map_or_else(clock, |nanoseconds| 1e-9 * nanoseconds)
 }
 
 fn volume(mass: &RockMass) -> f64 {

@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import potential_particles as pp
-from potential_particles.files import write_summary
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies"))
+from summary import print_targets, target, write_summary
 
 TOP = Path(__file__).resolve().parents[2]
 SIDE, ROUNDS, CALLS = 33, 15, 100_000
@@ -125,11 +126,6 @@ def single(library):
     return by_c, min(seconds(calls) for _ in range(ROUNDS)) / CALLS
 
 
-def at_most(name, target, measured):
-    print(f"{'met   ' if measured <= target else 'MISSED'} {name}: {measured:.4g} (at most {target:g})")
-    return {"name": name, "sense": "at most", "target": target, "measured": measured, "met": bool(measured <= target)}
-
-
 def draw(folder, rows):
     try:
         import matplotlib
@@ -157,13 +153,14 @@ def main():
     rows = [{"name": f"batch, {name}", "c": c / count, "python": python / count} for name, (c, python) in found.items()]
     rows.append({"name": "single call", "c": by_c, "python": by_python})
     targets = [
-        at_most(f"time of a batch of {count} pairs, {name}, over C's", 1.05, python / c)
+        target(f"time of a batch of {count} pairs, {name}, over C's", "at most", 1.05, python / c)
         for name, (c, python) in found.items()
     ]
-    targets.append(at_most("a single call above C's, us", 1.0, 1e6 * (by_python - by_c)))
+    targets.append(target("a single call above C's, us", "at most", 1.0, 1e6 * (by_python - by_c)))
     for row in rows:
         print(f"{row['name']}: C {1e6 * row['c']:.4f} us, Python {1e6 * row['python']:.4f} us")
     print(f"with half of the pairs new: {1e6 * changed / count:.3f} us a pair; {overlapping} of {count} pairs overlap")
+    print_targets(targets)
     folder.mkdir(parents=True, exist_ok=True)
     write_summary(folder / "summary.json", {"rows": rows, "changed_list": changed / count, "targets": targets})
     draw(folder, rows)

@@ -1,6 +1,5 @@
 //! Timing: contestants take turns on each item, so that the noise of the machine hits all alike.
 
-use indicatif::ProgressBar;
 use std::time::Instant;
 
 /// Length of one timed batch; some hundred times what reading the clock costs.
@@ -12,8 +11,7 @@ const MOST_CALLS: usize = 1000;
 pub type Contestant<'a> = &'a dyn Fn(usize);
 
 /// Seconds per call, `[contestant][item]`: the median over `rounds` of batches of repeated calls.
-pub fn race(items: usize, contestants: &[Contestant], rounds: usize, progress: &ProgressBar) -> Vec<Vec<f64>> {
-    progress.inc_length((items * rounds) as u64);
+pub fn race(items: usize, contestants: &[Contestant], rounds: usize) -> Vec<Vec<f64>> {
     let mut samples = vec![vec![Vec::with_capacity(rounds); items]; contestants.len()];
     let mut calls = vec![vec![0; items]; contestants.len()];
     for _ in 0..rounds {
@@ -29,37 +27,9 @@ pub fn race(items: usize, contestants: &[Contestant], rounds: usize, progress: &
                 }
                 samples[index][item].push(seconds(*calls, || contestant(item)));
             }
-            progress.inc(1);
         }
     }
     samples.into_iter().map(|items| items.into_iter().map(median).collect()).collect()
-}
-
-/// Seconds per call of each contestant over all items, one after the other and each once: the median over a few
-/// rounds. No call repeats the one before, so that its branches are not foreseen. An untimed walk goes first:
-/// the pairs of a scene fit into the caches, and whoever ran before has emptied them.
-pub fn in_turn(items: usize, contestants: &[Contestant]) -> Vec<f64> {
-    const ROUNDS: usize = 3;
-    let walk = |contestant: &Contestant| {
-        let begin = Instant::now();
-        for item in 0..items {
-            contestant(item);
-        }
-        begin.elapsed().as_secs_f64() / items as f64
-    };
-    let mut samples = vec![Vec::with_capacity(ROUNDS); contestants.len()];
-    for _ in 0..ROUNDS {
-        for (samples, contestant) in samples.iter_mut().zip(contestants) {
-            walk(contestant);
-            samples.push(walk(contestant));
-        }
-    }
-    samples.into_iter().map(median).collect()
-}
-
-/// Seconds per call of one batch, for whoever takes turns otherwise.
-pub fn one_batch(call: impl Fn()) -> f64 {
-    seconds(batch(&call), &call)
 }
 
 /// The middle value; NaN of nothing. Of an even number the upper one of the two in the middle.

@@ -1,64 +1,52 @@
-//! Run time against error, of this library and of everything else a user could pick.
+//! Run time against error: the cost of each kind of call, and every tolerance on the pairs known to 40 digits.
 //!
-//! `cargo bench --bench work_precision` writes `work_precision.csv`, `work_precision_pairs.csv` and
-//! `summary.json` to out/bench, and prints every stated target beside what was measured. The picture is
-//! drawn from these files by `benches/plot.py`.
+//! `cargo bench --bench work_precision` writes `work_precision.csv` and `summary.json` to out/bench, and prints every
+//! stated target beside what was measured; `-- quick` takes a part of the pairs and rounds. The picture is drawn from
+//! these files by `benches/plot.py`.
 
-#[path = "../baselines/mod.rs"]
-mod baselines;
 #[path = "../scene/mod.rs"]
 mod scene;
-#[path = "../target/summary.rs"]
-mod summary;
 #[path = "../../tests/support/mod.rs"]
 mod support;
+#[path = "../target/mod.rs"]
+mod target;
 
-mod arguments;
-mod built_in;
-mod cases;
 mod clock;
-mod falls;
 mod machine;
-mod report;
-mod solvers;
 mod speed;
 mod sweep;
 
-use arguments::Arguments;
-use clap::Parser;
-use indicatif::{ProgressBar, ProgressStyle};
-use report::Report;
+use serde_json::json;
 use std::io;
 use std::path::Path;
 
-fn main() -> io::Result<()> {
-    let arguments = Arguments::parse();
-    std::fs::create_dir_all(&arguments.out)?;
-    // Drawn on stderr, and only where that is a terminal.
-    let progress = ProgressBar::new(0).with_style(
-        ProgressStyle::with_template("{msg:32} {bar:40} {percent:>3} % {elapsed} ").expect("a valid template"),
-    );
-    let effort = arguments.effort();
-    let mut built_in = built_in::BuiltIn::new(&arguments.yade);
-
-    let speed = speed::measure(&effort, &mut built_in, &progress);
-    let cases = cases::all(&effort);
-    let records = sweep::run(&cases, &effort, &mut built_in, &progress);
-    let falls = falls::count(&effort, &progress);
-    progress.finish_and_clear();
-
-    let table = sweep::table(&records);
-    sweep::write_pairs(&arguments.out.join("work_precision_pairs.csv"), &records)?;
-    sweep::write_table(&arguments.out.join("work_precision.csv"), &table)?;
-    let report = Report::new(speed, &records, falls, machine::Machine::here(built_in.version()));
-    report.write(&arguments.out.join("summary.json"))?;
-    report.print();
-    println!("written: {}", listing(&arguments.out));
-    Ok(())
+/// How much to measure.
+pub struct Effort {
+    /// Pyramid pairs of each rounding.
+    pub pyramids: usize,
+    /// Pairs of each plane count.
+    pub polyhedra: usize,
+    /// Rounds over all contestants; the median of the rounds counts.
+    pub rounds: usize,
+    /// Every how many-th pair known to 40 digits is used.
+    pub stride: usize,
 }
 
-fn listing(folder: &Path) -> String {
-    ["work_precision.csv", "work_precision_pairs.csv", "summary.json"]
-        .map(|name| folder.join(name).display().to_string())
-        .join(", ")
+fn main() -> io::Result<()> {
+    let quick = std::env::args().any(|argument| argument == "quick");
+    let effort = if quick {
+        Effort { pyramids: 50, polyhedra: 10, rounds: 3, stride: 7 }
+    } else {
+        Effort { pyramids: 500, polyhedra: 100, rounds: 9, stride: 1 }
+    };
+    let machine = machine::Machine::here(None);
+    println!("{}, {} cores, {}, {}", machine.processor, machine.cores, machine.system, machine.date);
+    let groups = speed::measure(&effort);
+    let mut targets = speed::targets(&groups);
+    let records = sweep::run(&effort);
+    targets.extend(sweep::targets(&records));
+    let folder = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/out/bench"));
+    let summary = json!({"machine": machine, "targets": targets, "groups": groups});
+    target::write_summary(folder.join("summary.json"), &summary)?;
+    sweep::write(&folder.join("work_precision.csv"), &records)
 }

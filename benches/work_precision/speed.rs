@@ -1,176 +1,151 @@
-//! The stated ratios: cost of a call in units of one evaluation, and against the other solvers.
+//! The cost of each kind of call, in units of one evaluation of both bodies.
 
-use crate::arguments::Effort;
-use crate::baselines::{Placed, area, both_halves, one_shot};
-use crate::built_in::{self, BuiltIn};
+use crate::Effort;
 use crate::clock::{self, Contestant, median};
+use crate::scene::facets::Facet;
 use crate::scene::polyhedra;
 use crate::scene::pyramids::{self, pyramid};
 use crate::scene::random::Random;
 use crate::scene::touching::{self, Touching};
-use indicatif::ProgressBar;
-use potential_particles::Section;
-use potential_particles::{Formulation, Settings, detect, detect_batch};
+use crate::target::{at_least, at_most};
+use nalgebra::{Matrix3, Vector3};
+use potential_particles::internals::{Pair, reject};
+use potential_particles::{
+    BackEnd, Contact, ContactWeights, Formulation, Section, Settings, ShapeGradient, contact_derivatives,
+    contact_gradient, detect, detect_batch,
+};
 use serde::Serialize;
+use serde_json::Value;
 use std::cell::RefCell;
 use std::hint::black_box;
 
-/// Cost of one kind of call.
-#[derive(Clone, Serialize)]
-pub struct Cost {
-    pub name: String,
-    /// Median over pairs, each called again and again, in nanoseconds.
-    pub nanoseconds: f64,
-    /// The same in units of one evaluation.
-    pub units: f64,
-    /// Mean over pairs called one after the other, nothing repeated, in units.
-    pub in_turn_units: f64,
+/// Cost of one kind of call: the median over pairs, each called again and again.
+#[derive(Serialize)]
+struct Cost {
+    name: String,
+    nanoseconds: f64,
+    /// The same over that of one evaluation.
+    units: f64,
 }
 
 /// Costs on pairs of one shape.
 #[derive(Serialize)]
 pub struct Group {
-    pub shape: String,
-    pub pairs: usize,
-    pub costs: Vec<Cost>,
+    shape: String,
+    pairs: usize,
+    costs: Vec<Cost>,
 }
-
-/// Error of s of two solvers on the same pairs, relative.
-#[derive(Serialize)]
-pub struct Precision {
-    /// Median of the proved bound.
-    pub fast_bound: f64,
-    /// Median distance of clarabel's s from ours.
-    pub clarabel: f64,
-}
-
-/// YADE's built-in and the library on the same pairs, taking turns.
-#[derive(Serialize)]
-pub struct AgainstBuiltIn {
-    pub pairs: usize,
-    /// Pairs on which it gave no answer or missed the contact.
-    pub failed: usize,
-    /// It begins at the last contact point, as in a simulation.
-    pub built_in_microseconds: f64,
-    /// Without memory.
-    pub cold_microseconds: f64,
-    /// From memory, as in a simulation.
-    pub warm_microseconds: f64,
-}
-
-/// Everything of the speed part.
-#[derive(Serialize)]
-pub struct Speed {
-    pub groups: Vec<Group>,
-    pub precision: Precision,
-    pub built_in: Option<AgainstBuiltIn>,
-}
-
-impl Speed {
-    /// A cost by shape and name.
-    pub fn cost(&self, shape: &str, name: &str) -> Option<&Cost> {
-        let group = self.groups.iter().find(|group| group.shape == shape)?;
-        group.costs.iter().find(|cost| cost.name == name)
-    }
-}
-
-/// Names of two costs.
-pub const AREA: &str = "contact area";
-pub const AREA_BY_QUADRATURE: &str = "contact area by quadrature";
 
 /// Name of the cost of a contact in a batch of contacts that are carried on.
-pub const BATCH: &str = "midway, carried in a batch";
+const BATCH: &str = "midway, carried in a batch";
 
 /// Turns of a batch and as many evaluations.
 const ROUNDS_OF_BATCHES: usize = 50;
 
 /// Relative tolerance of the contact area where one is needed.
-pub const AREA_TOLERANCE: f64 = 1e-6;
+const AREA_TOLERANCE: f64 = 1e-6;
 
-pub fn rounded_name((r, k): (f64, f64)) -> String {
+fn rounded_name((r, k): (f64, f64)) -> String {
     format!("pyramids, r = {r}, k = {k}")
 }
 
-pub fn planes_name(planes: usize) -> String {
+fn planes_name(planes: usize) -> String {
     format!("{planes} + {planes} planes")
 }
 
-pub fn measure(effort: &Effort, built_in: &mut BuiltIn, progress: &ProgressBar) -> Speed {
+pub fn measure(effort: &Effort) -> Vec<Group> {
     let mut random = Random::seeded(20_090_101);
     let mut groups = Vec::new();
-    let mut precision = Precision { fast_bound: 0.0, clarabel: 0.0 };
-    let mut against = None;
     for shape in pyramids::ROUNDED.into_iter().chain([pyramids::SHARP]) {
-        let name = rounded_name(shape);
-        progress.set_message(name.clone());
-        let pairs = touching::pairs(&pyramid(shape.0, shape.1), effort.pyramids, &mut random);
-        groups.push(pyramid_costs(name, &pairs, effort, &mut random, progress));
-        if shape == pyramids::ROUNDED[1] {
-            precision = compared(&pairs);
-            against = against_built_in(&pairs[..effort.slow.min(pairs.len())], built_in, progress);
-        }
+        let pyramid = pyramid(shape.0, shape.1);
+        let pairs = touching::pairs(&pyramid, effort.pyramids, &mut random);
+        groups.push(pyramid_costs(rounded_name(shape), &pairs, effort, &mut random));
+        groups.push(triangle_costs(shape, &pairs, effort, &mut random));
     }
     for planes in polyhedra::PLANE_COUNTS {
-        let name = planes_name(planes);
-        progress.set_message(name.clone());
         let pairs: Vec<Touching> = (0..effort.polyhedra)
             .map(|_| {
                 let [a, b] = [0; 2].map(|_| polyhedra::ball(planes, &mut random));
                 Touching::new(&a, &b, &mut random)
             })
             .collect();
-        let cold = |i: usize| call(&pairs[i], Formulation::Midway);
-        let warm = |i: usize| warm_call(&pairs[i], Formulation::Midway);
-        let sections: Vec<Section> = pairs.iter().map(section).collect();
-        let contestants: [(&str, Contestant); 5] = [
+        let contacts: Vec<Contact> = pairs.iter().map(|pair| cold(pair, &midway())).collect();
+        let slopes = Slopes::new(&pairs, Formulation::Midway);
+        let contestants: [(&str, Contestant); 6] = [
             ("evaluation", &|i| pairs[i].evaluate()),
-            ("midway, cold", &cold),
-            ("midway, warm", &warm),
-            (AREA, &|i| contact_area(&pairs[i], &sections[i])),
-            (AREA_BY_QUADRATURE, &|i| quadrature(&pairs[i], &sections[i])),
+            ("midway, cold", &|i| _ = black_box(cold(&pairs[i], &midway()))),
+            ("midway, warm", &|i| _ = black_box(warm(&pairs[i], &midway()))),
+            ("midway, pose derivatives", &|i| slopes.of_poses(i)),
+            ("midway, product in the shapes", &|i| slopes.of_shapes(i)),
+            ("contact area", &|i| contact_area(&pairs[i], &contacts[i])),
         ];
-        groups.push(group(name, pairs.len(), &contestants, effort, progress));
+        groups.push(group(planes_name(planes), pairs.len(), &contestants, effort));
     }
-    Speed { groups, precision, built_in: against }
+    groups
 }
 
-fn pyramid_costs(
-    name: String,
-    pairs: &[Touching],
-    effort: &Effort,
-    random: &mut Random,
-    progress: &ProgressBar,
-) -> Group {
+fn pyramid_costs(name: String, pairs: &[Touching], effort: &Effort, random: &mut Random) -> Group {
     let by_spheres: Vec<Touching> = pairs.iter().map(|pair| pair.pushed(3.0, random)).collect();
     let by_faces: Vec<Touching> = pairs.iter().filter_map(|pair| pair.beyond_a_face(random)).collect();
     let by_memory = touching::barely_apart(pairs, random);
     assert!(!by_faces.is_empty(), "{name}: no pair is rejected by a face while its spheres meet");
     assert!(!by_memory.is_empty(), "{name}: every separated pair is rejected without memory");
-    let sections: Vec<Section> = pairs.iter().map(section).collect();
-    let contestants: [(&str, Contestant); 14] = [
+    let contacts: Vec<Contact> = pairs.iter().map(|pair| cold(pair, &midway())).collect();
+    let (closest, carrying) = (midway().with_formulation(Formulation::Closest), carrying_on());
+    let cone = |settings: Settings| settings.with_back_end(BackEnd::ConeProgram);
+    let slopes = Slopes::new(pairs, Formulation::Midway);
+    let of_closest = Slopes::new(pairs, Formulation::Closest);
+    let contestants: [(&str, Contestant); 18] = [
         ("evaluation", &|i| pairs[i].evaluate()),
         ("evaluation by potential::local", &|i| pairs[i].evaluate_by_library()),
-        ("midway, cold", &|i| call(&pairs[i], Formulation::Midway)),
-        ("midway, warm", &|i| warm_call(&pairs[i], Formulation::Midway)),
-        ("midway, carried", &|i| carried_call(&pairs[i])),
-        ("closest, cold", &|i| call(&pairs[i], Formulation::Closest)),
-        ("closest, warm", &|i| warm_call(&pairs[i], Formulation::Closest)),
-        ("rejected by spheres", &|i| call(&by_spheres[i], Formulation::Midway)),
-        ("rejected by a face", &|i| call(&by_faces[i % by_faces.len()], Formulation::Midway)),
-        ("rejected by memory", &|i| warm_call(&by_memory[i % by_memory.len()], Formulation::Midway)),
-        ("clarabel, midway", &|i| clarabel(&pairs[i], Formulation::Midway)),
-        ("clarabel, closest", &|i| clarabel(&pairs[i], Formulation::Closest)),
-        (AREA, &|i| contact_area(&pairs[i], &sections[i])),
-        (AREA_BY_QUADRATURE, &|i| quadrature(&pairs[i], &sections[i])),
+        ("midway, cold", &|i| _ = black_box(cold(&pairs[i], &midway()))),
+        ("midway, warm", &|i| _ = black_box(warm(&pairs[i], &midway()))),
+        ("midway, carried", &|i| _ = black_box(warm(&pairs[i], &carrying))),
+        ("closest, cold", &|i| _ = black_box(cold(&pairs[i], &closest))),
+        ("closest, warm", &|i| _ = black_box(warm(&pairs[i], &closest))),
+        ("rejected by spheres", &|i| _ = black_box(cold(&by_spheres[i], &midway()))),
+        ("rejected by a face", &|i| _ = black_box(cold(&by_faces[i % by_faces.len()], &midway()))),
+        ("test by a face", &|i| proof(&by_faces[i % by_faces.len()])),
+        ("rejected by memory", &|i| _ = black_box(warm(&by_memory[i % by_memory.len()], &midway()))),
+        ("clarabel, midway", &|i| _ = black_box(cold(&pairs[i], &cone(midway())))),
+        ("clarabel, closest", &|i| _ = black_box(cold(&pairs[i], &cone(closest)))),
+        ("midway, pose derivatives", &|i| slopes.of_poses(i)),
+        ("midway, product in the shapes", &|i| slopes.of_shapes(i)),
+        ("closest, pose derivatives", &|i| of_closest.of_poses(i)),
+        ("closest, product in the shapes", &|i| of_closest.of_shapes(i)),
+        ("contact area", &|i| contact_area(&pairs[i], &contacts[i])),
     ];
-    let mut group = group(name, pairs.len(), &contestants, effort, progress);
-    group.costs.push(batch(pairs, effort, progress));
+    let mut group = group(name, pairs.len(), &contestants, effort);
+    group.costs.push(batch(pairs, effort));
     group
+}
+
+/// A particle and a triangle of its size: a contact, a near miss that is solved to the end in most cases, and one far
+/// off; and what follows a solution, both surface points along a normal.
+fn triangle_costs((r, k): (f64, f64), pairs: &[Touching], effort: &Effort, random: &mut Random) -> Group {
+    let touching: Vec<Facet> = pairs.iter().map(|pair| Facet::touching(&pair.a, random)).collect();
+    let pushed = |way: f64| touching.iter().map(|facet| facet.pushed(way)).collect::<Vec<Facet>>();
+    let (near, far) = (pushed(2.0 * touching::OVERLAP), pushed(3.0));
+    let contacts: Vec<Contact> = pairs.iter().map(|pair| cold(pair, &midway())).collect();
+    let along = |turn: &Matrix3<f64>, v: Vector3<f64>| turn.tr_mul(&v);
+    let contestants: [(&str, Contestant); 5] = [
+        ("evaluation", &|i| pairs[i].evaluate()),
+        ("touching", &|i| _ = black_box(black_box(&touching[i]).contact())),
+        ("near", &|i| _ = black_box(black_box(&near[i]).contact())),
+        ("far", &|i| _ = black_box(black_box(&far[i]).contact())),
+        ("both surface points of a pair", &|i| {
+            let (pair, Contact { branch_a, branch_b, normal, .. }) = (black_box(&pairs[i]), contacts[i]);
+            let (a, b) = (pair.pose_a.rotation(), pair.pose_b.rotation());
+            black_box(pair.a.surface_distance(&along(a, branch_a), &along(a, normal)));
+            black_box(pair.b.surface_distance(&along(b, branch_b), &along(b, -normal)));
+        }),
+    ];
+    group(format!("particle against triangle, r = {r}, k = {k}"), pairs.len(), &contestants, effort)
 }
 
 /// A contact of a batch on one thread, in which the poses of all B go to and fro between two, beside as many
 /// evaluations.
-fn batch(pairs: &[Touching], effort: &Effort, progress: &ProgressBar) -> Cost {
+fn batch(pairs: &[Touching], effort: &Effort) -> Cost {
     let particles: Vec<_> = pairs.iter().flat_map(|pair| [&pair.a, &pair.b]).collect();
     let poses = [true, false].map(|moved| -> Vec<_> {
         pairs.iter().flat_map(|pair| [pair.pose_a, if moved { pair.moved_b } else { pair.pose_b }]).collect()
@@ -185,135 +160,139 @@ fn batch(pairs: &[Touching], effort: &Effort, progress: &ProgressBar) -> Cost {
         let _ = black_box(&detect_batch(&particles, poses, &bodies, &carrying_on(), 1, states));
     };
     let evaluate = |_| pairs.iter().for_each(Touching::evaluate);
-    let seconds = clock::race(1, &[&evaluate, &step], ROUNDS_OF_BATCHES.max(effort.rounds), progress);
+    let seconds = clock::race(1, &[&evaluate, &step], ROUNDS_OF_BATCHES.max(effort.rounds));
     let (nanoseconds, units) = (1e9 * seconds[1][0] / pairs.len() as f64, seconds[1][0] / seconds[0][0]);
-    Cost { name: BATCH.into(), nanoseconds, units, in_turn_units: units }
+    Cost { name: BATCH.into(), nanoseconds, units }
 }
 
 /// Measures all contestants; the first is the evaluation, and the unit.
-fn group(
-    shape: String,
-    pairs: usize,
-    contestants: &[(&str, Contestant)],
-    effort: &Effort,
-    progress: &ProgressBar,
-) -> Group {
+fn group(shape: String, pairs: usize, contestants: &[(&str, Contestant)], effort: &Effort) -> Group {
     let calls: Vec<Contestant> = contestants.iter().map(|(_, call)| *call).collect();
-    let medians: Vec<f64> = clock::race(pairs, &calls, effort.rounds, progress).into_iter().map(median).collect();
-    let in_turn = clock::in_turn(pairs, &calls);
-    let unit = medians[0];
-    let costs = contestants.iter().zip(medians.iter().zip(&in_turn)).map(|((name, _), (seconds, in_turn))| Cost {
-        name: (*name).into(),
-        nanoseconds: 1e9 * seconds,
-        units: seconds / unit,
-        in_turn_units: in_turn / unit,
+    let medians: Vec<f64> = clock::race(pairs, &calls, effort.rounds).into_iter().map(median).collect();
+    println!("\n{shape}");
+    let costs = contestants.iter().zip(&medians).map(|((name, _), seconds)| {
+        let (name, nanoseconds, units) = ((*name).to_owned(), 1e9 * seconds, seconds / medians[0]);
+        println!("  {name:32} {nanoseconds:10.0} ns {units:8.1} evaluations");
+        Cost { name, nanoseconds, units }
     });
-    Group { shape, pairs, costs: costs.collect() }
+    Group { costs: costs.collect(), shape, pairs }
 }
 
-fn settings(formulation: Formulation) -> Settings {
-    Settings::default().with_formulation(formulation)
+fn midway() -> Settings {
+    Settings::default()
 }
 
 fn carrying_on() -> Settings {
     Settings::default().with_carry_tolerance(touching::CARRY_TOLERANCE)
 }
 
-fn call(pair: &Touching, formulation: Formulation) {
+fn cold(pair: &Touching, settings: &Settings) -> Contact {
     let pair = black_box(pair);
-    let _ = black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings(formulation), None));
+    detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, settings, None).expect("a contact of ordinary bodies")
 }
 
 /// From the memory of the pose before.
-fn warm_call(pair: &Touching, formulation: Formulation) {
+fn warm(pair: &Touching, settings: &Settings) -> Contact {
     let pair = black_box(pair);
-    let mut state = pair.state(formulation);
-    let _ = black_box(&detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &settings(formulation), Some(&mut state)));
+    let mut state = pair.state(settings.formulation);
+    detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, settings, Some(&mut state))
+        .expect("a contact of ordinary bodies")
 }
 
-/// Carried on from the pose before.
-fn carried_call(pair: &Touching) {
+fn proof(pair: &Touching) {
     let pair = black_box(pair);
-    let mut state = pair.state(Formulation::Midway);
-    let contact = detect(&pair.a, &pair.pose_a, &pair.b, &pair.moved_b, &carrying_on(), Some(&mut state));
-    let _ = black_box(&contact);
+    black_box(reject::proof_of_separation(&Pair::new(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b)).is_some());
 }
 
-fn section(pair: &Touching) -> Section {
-    let contact = detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings(Formulation::Midway), None);
-    let contact = contact.expect("a contact of ordinary bodies");
-    Section { branch_a: contact.branch_a, branch_b: contact.branch_b, normal: contact.normal }
-}
-
-fn contact_area(pair: &Touching, section: &Section) {
-    let (pair, section) = (black_box(pair), black_box(section));
+fn contact_area(pair: &Touching, contact: &Contact) {
+    let Contact { branch_a, branch_b, normal, .. } = *black_box(contact);
+    let (pair, section) = (black_box(pair), Section { branch_a, branch_b, normal });
     let _ = black_box(section.area(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, AREA_TOLERANCE));
 }
 
-fn quadrature(pair: &Touching, section: &Section) {
-    let _ = black_box(area::by_quadrature(&placed(black_box(pair)), black_box(section), AREA_TOLERANCE));
+/// The derivatives of contacts in the poses, and a product with those in both shapes.
+struct Slopes<'a> {
+    pairs: &'a [Touching],
+    settings: Settings,
+    contacts: Vec<Contact>,
+    /// What products are added to: all pairs of a group have as many planes.
+    sums: RefCell<[ShapeGradient; 2]>,
 }
 
-fn placed(pair: &Touching) -> Placed<'_> {
-    Placed { a: &pair.a, pose_a: &pair.pose_a, b: &pair.b, pose_b: &pair.pose_b }
-}
+impl<'a> Slopes<'a> {
+    fn new(pairs: &'a [Touching], formulation: Formulation) -> Self {
+        let settings = midway().with_formulation(formulation);
+        let contacts = pairs.iter().map(|pair| cold(pair, &settings)).collect();
+        let sums = RefCell::new([ShapeGradient::zeros(&pairs[0].a), ShapeGradient::zeros(&pairs[0].b)]);
+        Self { pairs, settings, contacts, sums }
+    }
 
-fn clarabel(pair: &Touching, formulation: Formulation) {
-    let solve = |pair: &Placed| one_shot::solve(pair, formulation, one_shot::DEFAULT_TOLERANCE);
-    let placed = placed(black_box(pair));
-    if formulation == Formulation::Closest {
-        let _ = black_box(both_halves(&placed, solve));
-    } else {
-        let _ = black_box(solve(&placed));
+    fn of_poses(&self, i: usize) {
+        let p = black_box(&self.pairs[i]);
+        let found = contact_derivatives(&p.a, &p.pose_a, &p.b, &p.pose_b, &self.contacts[i], &self.settings);
+        black_box(&found.expect("derivatives of an overlapping contact"));
+    }
+
+    fn of_shapes(&self, i: usize) {
+        let weights = ContactWeights {
+            s: 0.1,
+            overlap: 1.0,
+            normal: [0.3, 0.2, 0.1].into(),
+            point: [0.1, 0.2, 0.3].into(),
+            ..ContactWeights::default()
+        };
+        let (p, contact) = (black_box(&self.pairs[i]), &self.contacts[i]);
+        let [a, b] = &mut *self.sums.borrow_mut();
+        let (a, b) = (Some(a), Some(b));
+        let found = contact_gradient(&p.a, &p.pose_a, &p.b, &p.pose_b, contact, &self.settings, &weights, a, b);
+        black_box(&found.expect("a gradient of an overlapping contact"));
     }
 }
 
-/// Our proved bound on the error of s beside clarabel's distance from our s.
-fn compared(pairs: &[Touching]) -> Precision {
-    let mut bounds = Vec::new();
-    let mut distances = Vec::new();
-    for pair in pairs {
-        let ours = detect(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &settings(Formulation::Midway), None);
-        let theirs = one_shot::solve(&placed(pair), Formulation::Midway, one_shot::DEFAULT_TOLERANCE);
-        if let (Ok(ours), Ok(theirs)) = (ours, theirs) {
-            bounds.push(ours.gap / ours.s);
-            distances.push((theirs.s - ours.s).abs() / ours.s);
-        }
-    }
-    Precision { fast_bound: median(bounds), clarabel: median(distances) }
-}
-
-/// `None` without a YADE.
-fn against_built_in(pairs: &[Touching], built_in: &mut BuiltIn, progress: &ProgressBar) -> Option<AgainstBuiltIn> {
-    const ROUNDS: usize = 3;
-    const BATCHES: usize = 21;
-    if built_in.missing().is_some() {
-        return None;
-    }
-    progress.inc_length((ROUNDS * pairs.len()) as u64);
-    let mut theirs = vec![Vec::new(); pairs.len()];
-    let (mut cold, mut warm) = (theirs.clone(), theirs.clone());
-    // YADE has just emptied the caches; its own time is a median over many steps, too.
-    let settled = |call: &dyn Fn()| median((0..BATCHES).map(|_| clock::one_batch(call)).collect());
-    for _ in 0..ROUNDS {
-        for (i, pair) in pairs.iter().enumerate() {
-            let answer = built_in.ask(&placed(pair), None, built_in::DEFAULT_TOLERANCE, false);
-            if let Some(found) = answer.ok().filter(|found| found.touching) {
-                theirs[i].push(found.seconds);
-                cold[i].push(settled(&|| call(pair, Formulation::Midway)));
-                warm[i].push(settled(&|| warm_call(pair, Formulation::Midway)));
-            }
-            progress.inc(1);
-        }
-    }
-    let failed = theirs.iter().filter(|times| times.len() < ROUNDS).count();
-    let overall =
-        |times: Vec<Vec<f64>>| 1e6 * median(times.into_iter().filter(|t| !t.is_empty()).map(median).collect());
-    Some(AgainstBuiltIn {
-        pairs: pairs.len(),
-        failed,
-        built_in_microseconds: overall(theirs),
-        cold_microseconds: overall(cold),
-        warm_microseconds: overall(warm),
-    })
+/// The stated ratios. Where several pyramids are meant, the worst of them counts.
+pub fn targets(groups: &[Group]) -> Vec<Value> {
+    let rounded = pyramids::ROUNDED.map(rounded_name);
+    let cost = |shape: &str, name: &str| {
+        let group = groups.iter().find(|group| group.shape == shape).expect("a group of this shape");
+        group.costs.iter().find(|cost| cost.name == name).expect("a cost of this name")
+    };
+    let units = |name: &str| rounded.iter().map(|shape| cost(shape, name).units).fold(0.0, f64::max);
+    let quotients = |over: &str, under: &str| {
+        let of = |shape: &String| cost(shape, over).units / cost(shape, under).units;
+        rounded.each_ref().map(of)
+    };
+    let most = |over: &str, under: &str| quotients(over, under).into_iter().fold(0.0, f64::max);
+    let least = |over: &str, under: &str| quotients(over, under).into_iter().fold(f64::INFINITY, f64::min);
+    let warm_ns = |planes: usize| cost(&planes_name(planes), "midway, warm").nanoseconds;
+    let sharp = cost(&rounded_name(pyramids::SHARP), "midway, cold").units;
+    // Of the pyramids in the middle.
+    let slope = |name: &str, warm: &str| cost(&rounded[1], name).units / cost(&rounded[1], warm).units;
+    vec![
+        at_most("pose derivatives / warm call, midway", 0.3, slope("midway, pose derivatives", "midway, warm")),
+        at_most(
+            "product in the shapes / warm call, midway",
+            1.0,
+            slope("midway, product in the shapes", "midway, warm"),
+        ),
+        at_most("pose derivatives / warm call, closest", 0.3, slope("closest, pose derivatives", "closest, warm")),
+        at_most(
+            "product in the shapes / warm call, closest",
+            1.0,
+            slope("closest, product in the shapes", "closest, warm"),
+        ),
+        at_most("midway with geometry, cold (evaluations)", 50.0, units("midway, cold")),
+        at_most("midway with geometry, warm (evaluations)", 15.0, units("midway, warm")),
+        at_most("midway carried to a pose 1e-4 away (evaluations)", 8.0, units("midway, carried")),
+        at_most("the same in a batch, one thread (evaluations)", 8.0, units(BATCH)),
+        at_most("closest / midway, cold", 1.6, most("closest, cold", "midway, cold")),
+        at_most("closest / midway, warm", 1.6, most("closest, warm", "midway, warm")),
+        at_most("midway at r/size = k = 1e-6, cold (evaluations)", 150.0, sharp),
+        at_least("clarabel / midway, cold", 200.0, least("clarabel, midway", "midway, cold")),
+        at_least("clarabel / closest, cold", 200.0, least("clarabel, closest", "closest, cold")),
+        at_most("rejected, direction in memory (evaluations)", 3.0, units("rejected by memory")),
+        at_most("rejected by spheres, cold (evaluations)", 6.0, units("rejected by spheres")),
+        at_most("rejected by a face, cold (evaluations)", 6.0, units("rejected by a face")),
+        at_most("300 + 300 planes / 10 + 10 planes, warm", 6.0, warm_ns(300) / warm_ns(10)),
+        at_most("1000 + 1000 planes / 10 + 10 planes, warm", 10.0, warm_ns(1000) / warm_ns(10)),
+    ]
 }

@@ -23,15 +23,13 @@ from potential_particles import mpi
 from potential_particles.mpi.ranks import mpy
 from yade import O
 
-import pyramids
+import pile
 from box import Box
-from contact_functor import LIBRARY, ContactFunctor
-from pyramid import pyramid
 
 CELLS = (6, 6, 14)  # bodies of a tile, as they start
 WIDTH = 0.15  # of a cell, m: two bodies never touch across
 SETTLE_STEPS = 7000
-VERLET_DISTANCE = 0.06 * pyramids.SIZE
+VERLET_DISTANCE = 0.06 * pile.SIZE
 # Steps before the clock starts, and so many blocks of steps under it: the fastest counts.
 WARM_STEPS, BLOCKS = 15, 4
 EXCHANGES = 200
@@ -63,19 +61,14 @@ def main():
 def settle(path):
     """Positions and orientations of a tile at rest."""
     nx, ny, nz = CELLS
-    random = np.random.default_rng(pyramids.SEED)
+    random = np.random.default_rng(pile.SEED)
     grid = np.stack(np.meshgrid(np.arange(nx), np.arange(ny), np.arange(nz), indexing="ij"), -1).reshape(-1, 3)
     positions = (grid + [0.5 - nx / 2, 0.5 - ny / 2, 0.5]) * WIDTH
     orientations = random.normal(size=(len(grid), 4))
     fill(positions, orientations, nx * WIDTH / 2, ny * WIDTH / 2, nz * WIDTH)
     mpi.run(SETTLE_STEPS)
-    bodies = [body.state for body in O.bodies if body.id >= 5]
-    np.savez(
-        path,
-        positions=[tuple(state.pos) for state in bodies],
-        orientations=[(state.ori[3], state.ori[0], state.ori[1], state.ori[2]) for state in bodies],
-        kinetic=yade.utils.kineticEnergy(),
-    )
+    found = pile.states(range(5, len(O.bodies)))
+    np.savez(path, positions=found["pos"], orientations=found["ori"], kinetic=yade.utils.kineticEnergy())
 
 
 def lay(tile, across, along):
@@ -89,18 +82,13 @@ def lay(tile, across, along):
 
 
 def fill(positions, orientations, half_x, half_y, height):
-    """The scene of pyramids.py with these bodies; returns their ids."""
-    shape = pyramid(pyramids.SIZE)
-    contact = ContactFunctor(LIBRARY, measure_time=False)
-    material = yade.FrictMat(young=-1, poisson=-1, frictionAngle=np.radians(pyramids.FRICTION_ANGLE),
-                             density=pyramids.DENSITY)
-    O.materials.append(material)
-    O.bodies.append(Box(half_x, half_y, height, thickness=pyramids.SIZE).slabs(contact.shape_class, material))
-    ids = [pyramids.append(contact, shape, material, *pose) for pose in zip(positions, orientations)]
-    O.engines = pyramids.engines(contact)
-    contact.prepare()
-    O.dt = pyramids.TIME_STEP
-    return ids
+    """The scene of pile.py with these bodies; returns their ids."""
+    heap = pile.Pile(1, measure_time=False)
+    heap.box = Box(half_x, half_y, height, thickness=pile.SIZE)
+    heap.start()
+    heap.lay(positions, orientations)
+    heap.finish()
+    return heap.ids
 
 
 def measure(steps):

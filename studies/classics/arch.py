@@ -13,7 +13,7 @@ from scipy.optimize import linprog
 from yade import O
 
 from report import row, target, worst
-from scene import ROUNDING, Scene, box_corners, place_of
+from block_scene import ROUNDING, Scene, box_corners, place_of
 
 TITLE = "a semicircular arch"
 MILANKOVITCH = 0.1075

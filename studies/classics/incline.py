@@ -10,7 +10,7 @@ import numpy as np
 from yade import O
 
 from report import row, target
-from scene import Scene, box_corners, place_of, tilted_gravity, turn_about_y
+from block_scene import Scene, box_corners, place_of, tilted_gravity, turn_about_y
 
 STAYS, SLIDES, TOPPLES, BOTH = "stays", "slides", "topples", "slides and topples"
 TITLE = "a block on an incline"

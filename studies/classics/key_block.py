@@ -16,7 +16,7 @@ from yade import O
 
 from joint_planes import Plane, sliding_on
 from report import row, target, worst
-from scene import GRAVITY, ROUNDING, Scene
+from block_scene import GRAVITY, ROUNDING, Scene
 
 TITLE = "a key block in a roof"
 HEIGHT = 1.0  # of the block above the roof, m

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from yade import O
 
 from report import row, target, worst
-from scene import GRAVITY, Scene, box_corners, tilted_gravity
+from block_scene import GRAVITY, Scene, box_corners, tilted_gravity
 
 TITLE = "Newmark's block on a shaken plane"
 SLOPE, FRICTION = 15.0, 30.0  # degrees

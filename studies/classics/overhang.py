@@ -7,7 +7,7 @@ a factor, and the largest factor at which it stands is bracketed by halving.
 """
 
 from report import row, target, worst
-from scene import Scene, box_corners, turn_about_y
+from block_scene import Scene, box_corners, turn_about_y
 
 TITLE = "n blocks over the edge of a table"
 LENGTH, WIDTH, HEIGHT = 1.0, 0.5, 0.25  # m

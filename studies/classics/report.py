@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """What a case hands back: rows of a table, targets, and what its picture shows."""
 
+import summary
+
 
 def row(what, closed_form, found, unit="", relative=False):
     """One line of the table; the error is found less closed form, over that if `relative`."""
@@ -10,7 +12,7 @@ def row(what, closed_form, found, unit="", relative=False):
 
 def target(name, limit, measured):
     """A figure that is to stay below a limit."""
-    return {"name": name, "sense": "<=", "target": limit, "measured": measured, "met": bool(measured <= limit)}
+    return summary.target(name, "at most", limit, measured)
 
 
 def worst(rows):

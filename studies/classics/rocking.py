@@ -11,7 +11,7 @@ import numpy as np
 from yade import O, Quaternion, Vector3
 
 from report import row, target, worst
-from scene import GRAVITY, Scene, box_corners, turn_about_y
+from block_scene import GRAVITY, Scene, box_corners, turn_about_y
 
 TITLE = "a column rocks on its base"
 BASE, HEIGHT = 1.0, 4.0  # m

@@ -12,7 +12,7 @@ from potential_particles import shapes
 from yade import O
 
 from report import row, target
-from scene import GRAVITY, ROUNDING, Scene, box_corners, tilted_gravity
+from block_scene import GRAVITY, ROUNDING, Scene, box_corners, tilted_gravity
 
 TITLE = "a cylinder of n planes rolls down an incline"
 SLOPE, FRICTION = 20.0, 40.0  # degrees

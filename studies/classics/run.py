@@ -23,12 +23,11 @@ from pathlib import Path
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE), str(HERE.parent)]
 
-import machine
 import settings
 from pictures import draw
 from progress import Progress
-from summary import write_summary
-from table import markdown, print_rows, print_targets
+from summary import made, write_summary
+from table import markdown, print_all
 
 # In the order of the page and the table: about how many seconds each takes.
 SECONDS = {
@@ -141,8 +140,7 @@ def main():
     (out / "table.md").write_text(markdown(results, summary))
     if results:
         draw(out / "classics.png", results)
-    print_rows(results)
-    print_targets(summary, out)
+    print_all(results, summary, out)
     for name, said in run.failures.items():
         print(f"\n{name} ended without a result:\n{said}")
     if interrupted:
@@ -178,8 +176,7 @@ def summed_up(results, failures, interrupted, seconds):
         "wall_seconds": seconds,
         "processes": AT_ONCE,
         "versions": next((result["versions"] for result in results.values()), {}),
-        "machine": machine.machine_line(),
-        "date": machine.now(),
+        **made("make classics"),
     }
 
 

@@ -5,7 +5,7 @@ import numpy as np
 from yade import O
 
 from report import row, target, worst
-from scene import GRAVITY, Scene, box_corners, tilted_gravity
+from block_scene import GRAVITY, Scene, box_corners, tilted_gravity
 
 TITLE = "a block slides down a plane"
 SLOPES = (25.0, 35.0, 40.0)  # degrees

@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 from yade import O
 
 from report import row, target
-from scene import GRAVITY, Scene, box_corners, tilted_gravity
+from block_scene import GRAVITY, Scene, box_corners, tilted_gravity
 
 TITLE = "a toppling slope of 16 columns"
 COUNT, CREST = 16, 10

@@ -12,7 +12,7 @@ from potential_particles import body, shapes
 from yade import O
 
 from report import row, target
-from scene import DENSITY, ROUNDING
+from block_scene import DENSITY, ROUNDING
 from stepping import advance
 
 TITLE = "a book thrown into the air"

@@ -12,7 +12,7 @@ import numpy as np
 from yade import O, Vector3
 
 from report import row, target, worst
-from scene import GRAVITY, JOINTS, SHEAR, Scene, box_corners
+from block_scene import GRAVITY, JOINTS, SHEAR, Scene, box_corners
 
 TITLE = "a contact patch: a block spins on its base" if JOINTS else "one point a face: a block spins on its base"
 SIDE, FRICTION, SPIN = 1.0, 30.0, 1.0  # m, degrees, 1/s

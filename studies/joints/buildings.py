@@ -4,12 +4,11 @@ import math
 
 import numpy as np
 import potential_particles
-from limit_analysis import Joint, largest_load
 from potential_particles import shapes
 from scene import O, fastest, fresh, run
 from yade import Vector3
 
-FRICTION, DENSITY, GRAVITY = 0.7, 2000.0, 9.81
+FRICTION, GRAVITY = 0.7, 9.81
 ROUNDING = 2e-3  # of the edges, m
 # Stiffness per area, N/m^3: so stiff that a block on its edge does not tilt by as much as the limit would see; a row
 # may have a stiffer one.
@@ -19,30 +18,18 @@ RESTS, FALLS = 1e-6, 0.05  # m/s; m
 
 
 class Building:
-    """Stones as convex hulls of corners, the fixed ones last, and the joints between them."""
+    """Stones as convex hulls of corners, fixed ones, and the direction of the push."""
 
-    def __init__(self, stones, fixed, joints, directions):
-        self.stones, self.fixed, self.joints = [np.asarray(one, float)
-                                                for one in stones], [np.asarray(one, float) for one in fixed], joints
-        self.directions = directions
-        made = [self.shape(one) for one in self.stones]
-        self.centroids = np.array([shape.centroid for shape in made])
-        self.weights = np.array([shape.volume * DENSITY * GRAVITY for shape in made])
+    def __init__(self, stones, fixed, direction):
+        self.stones, self.fixed, self.direction = stones, fixed, direction
 
     @staticmethod
     def shape(corners):
         size = potential_particles.polyhedron.Polyhedron.of_points(corners).size
         return shapes.from_vertices(corners, rounding=ROUNDING / size, k=0)
 
-    def limit(self):
-        """The horizontal acceleration in `directions`, over gravity, at which it falls."""
-        return largest_load(self.centroids, self.weights, self.joints, FRICTION,
-                            np.outer(self.weights, self.directions))
-
-    def pushed(self, acceleration, seconds=2.0, stiffness=K):
-        """How far stones are off after the acceleration has come up slowly and stayed until they rest or have fallen,
-        or for a time, m, and the fastest one, m/s.
-        """
+    def rest(self, stiffness=K):
+        """The stones, once they have come to rest under their weight."""
         fresh(damping=0.5, normalStiffness=stiffness, shearStiffness=stiffness / 2, frictionAngle=math.atan(FRICTION),
               restitution=0.3)
         stones = [O.bodies[O.bodies.append(potential_particles.body(self.shape(one)))] for one in self.stones]
@@ -55,14 +42,24 @@ class Building:
             O.engines[-1].gravity = Vector3(0, 0, -GRAVITY * part / 20)
             run(0.02)
         run(0.3)
+        return stones
+
+    def limit(self):
+        """The acceleration in `direction`, over gravity, at which it falls, by limit analysis of the building at rest.
+        """
+        return potential_particles.limit_analysis("load", push=self.direction).factor
+
+    def pushed(self, stones, acceleration, seconds=2.0):
+        """How far stones are off after the acceleration has come up slowly and stayed until they rest or have fallen,
+        or for a time, m, and the fastest one, m/s.
+        """
         begin = [Vector3(stone.state.pos) for stone in stones]
 
         def moved():
             return max((stone.state.pos - place).norm() for stone, place in zip(stones, begin))
 
         for part in range(1, 101):
-            O.engines[-1].gravity = GRAVITY * Vector3(*(acceleration * part / 100 * x
-                                                        for x in self.directions)) - Vector3(0, 0, GRAVITY)
+            O.engines[-1].gravity = GRAVITY * (acceleration * part / 100 * Vector3(*self.direction) - Vector3(0, 0, 1))
             run(0.015)
         end = O.time + seconds
         while O.time < end and fastest() > RESTS and moved() < FALLS:
@@ -76,22 +73,6 @@ def brick(x, z, length=0.4, width=0.2, height=0.2, y=0.0):
                      for k in (0, 1)])
 
 
-def bed_joints(stones, fixed):
-    """Joints between bricks that lie on each other: where the flat parts of both faces meet."""
-    every, joints = stones + fixed, []
-    for lower, below in enumerate(every):
-        for upper, above in enumerate(stones):
-            if abs(below[:, 2].max() - above[:, 2].min()) > 1e-9:
-                continue
-            low = np.maximum(below.min(0), above.min(0))[:2] + ROUNDING
-            high = np.minimum(below.max(0), above.max(0))[:2] - ROUNDING
-            if (high > low).all():
-                z = above[:, 2].min()
-                joints.append(
-                    Joint(lower, upper, [(x, y, z) for x in (low[0], high[0]) for y in (low[1], high[1])], (0, 0, 1)))
-    return joints
-
-
 def wall():
     """3 bricks wide and 8 courses high, with open head joints."""
     gap, stones = 0.004, []
@@ -99,7 +80,7 @@ def wall():
         ends = (0, 0.4, 0.8, 1.2) if course % 2 == 0 else (0, 0.2, 0.6, 1.0, 1.2)
         stones += [brick(a + gap / 2, 0.2 * course, b - a - gap) for a, b in zip(ends, ends[1:])]
     fixed = [brick(-0.2, -0.2, 1.6, width=0.4)]
-    return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
+    return Building(stones, fixed, (1, 0, 0))
 
 
 def portal():
@@ -107,7 +88,7 @@ def portal():
     stones = [brick(x, 0.2 * course, 0.15) for x in (0, 0.65)
               for course in range(4)] + [brick(-0.05, 0.8, 0.9, height=0.12)]
     fixed = [brick(-0.2, -0.2, 1.2, width=0.4)]
-    return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
+    return Building(stones, fixed, (1, 0, 0))
 
 
 def tower():
@@ -117,7 +98,7 @@ def tower():
         for course in range(8)
     ]
     fixed = [brick(-0.2, -0.2, 0.7, width=0.7)]
-    return Building(stones, fixed, bed_joints(stones, fixed), (1, 0, 0))
+    return Building(stones, fixed, (1, 0, 0))
 
 
 def arch(stones=12, thickness=1.3 * 0.1075, depth=0.14, radius=1.0):
@@ -130,22 +111,15 @@ def arch(stones=12, thickness=1.3 * 0.1075, depth=0.14, radius=1.0):
 
     blocks = [[point(d, a, s) for d in (inner, outer) for a in angles[i:i + 2] for s in (-1, 1)] for i in range(stones)]
     fixed = [brick(side - thickness, -0.2, 2 * thickness, width=2 * depth) for side in (-radius, radius)]
-    joints = []
-    for i, angle in enumerate(angles):
-        corners = [
-            point(d, angle, s) for d in (inner + ROUNDING, outer - ROUNDING)
-            for s in (-1 + 2 * ROUNDING / depth, 1 - 2 * ROUNDING / depth)
-        ]
-        first, second = (i - 1) if i else stones + 1, i if i < stones else stones
-        joints.append(Joint(first, second, corners, (-math.sin(angle), 0, math.cos(angle))))
-    return Building(blocks, fixed, joints, (0, 1, 0))
+    return Building(blocks, fixed, (0, 1, 0))
 
 
-def _row(building, below=None, **keywords):
+def _row(building, below=None, stiffness=K):
     """Pushed by `below`, by default 2 % less than the limit, and by 2 % more; accelerations over gravity."""
+    stones = building.rest(stiffness)
     limit = building.limit()
-    stands, falls = building.pushed(0.98 * limit if below is None else below,
-                                    **keywords), building.pushed(1.02 * limit, **keywords)
+    stands = building.pushed(stones, 0.98 * limit if below is None else below)
+    falls = building.pushed(building.rest(stiffness), 1.02 * limit)
     return {"value": stands[1], "target": RESTS, "limit": limit, "moved_standing": stands[0], "moved_falling": falls[0],
             "falls": stands[0] < FALLS / 2 and falls[0] > FALLS}
 

@@ -18,7 +18,7 @@ import impacts  # noqa: E402
 import pictures  # noqa: E402
 import piles  # noqa: E402
 import rows  # noqa: E402
-from summary import print_table, write_summary  # noqa: E402
+from summary import print_targets, target, write_summary  # noqa: E402
 
 ROWS = rows.ROWS | impacts.ROWS | bonds.ROWS | piles.ROWS | buildings.ROWS | cost.ROWS
 
@@ -28,15 +28,9 @@ def targets(name, row):
     for key in [key for key in row if key == "target" or key.endswith("_target")]:
         value = key[:-len("target")].rstrip("_") or "value"
         label = name if value == "value" else f"{name}, {value.replace('_', ' ')}"
-        yield {
-            "name": label, "sense": "at most", "target": row[key], "measured": row[value],
-            "met": bool(row[value] <= row[key])
-        }
+        yield target(label, "at most", row[key], row[value])
     if "falls" in row:
-        yield {
-            "name": f"{name}, falls below", "sense": "is", "target": True, "measured": row["falls"],
-            "met": bool(row["falls"])
-        }
+        yield target(f"{name}, falls below", "at least", 1, int(row["falls"]))
 
 
 def main():
@@ -49,14 +43,12 @@ def main():
         print(f"{name}: {found[name]}", flush=True)
         if name in pictures.OF_SCENES:
             pictures.OF_SCENES[name](folder / f"{name}.png")
-    listed = [target for name, row in found.items() for target in targets(name, row)]
+    listed = [one for name, row in found.items() for one in targets(name, row)]
     write_summary(folder / "summary.json", {"rows": found, "targets": listed})
     pictures.all_rows([entry for entry in listed if entry["sense"] == "at most"], folder / "joints.png")
     for name in found.keys() & pictures.OF_ROWS.keys():
         pictures.OF_ROWS[name](found[name], folder / f"{name}.png")
-    print_table([(entry["name"],
-                  f"{entry['measured']:.3g}  (target {entry['target']:g}) {'met' if entry['met'] else 'MISSED'}")
-                 for entry in listed])
+    print_targets(listed)
 
 
 main()

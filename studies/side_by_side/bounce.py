@@ -45,17 +45,11 @@ class Bounce:
         """Largest change of the energy, relative."""
         return max(abs(energy / self.energies[0] - 1.0) for energy in self.energies)
 
-
-@dataclass
-class Comparison:
-    """One way to step the line of cubes, for both functors."""
-
-    steps_per_contact: int
-    keep: bool  # contacts that open, see HeadOn
-    area: bool  # springs per contact area
-    exact: Bounce  # springs without geometry; None where there is no closed form
-    library: Bounce
-    builtin: Bounce
+    def summary(self):
+        times = self.durations
+        return {"bounces": self.bounces, "drift": self.drift, "spin": self.spin,
+                "microseconds_a_step": self.microseconds,
+                "contact_time_over_ideal": sum(times) / len(times) / self.ideal_duration if times else None}
 
 
 class HeadOn:

@@ -11,9 +11,9 @@ import numpy as np
 import yade
 from yade import O
 
-import pyramids
+import pile
 from bodies import reach
-from box import SLAB_ONLY, SLAB_SPHERICITY, Box
+from box import SLAB_SPHERICITY, Box
 from loose_grid import loose_grid
 from particles import ball, block, half_height, material, octahedron, plain_body
 from pyramid import pyramid
@@ -67,42 +67,14 @@ class Case:
         return material(self.friction, self.density)
 
 
-def loop(functor, springs, viscous=0.0, local=0.0, gravity=GRAVITY, never_erase=False):
+def loop(functor, springs, viscous=0.0, local=0.0, **more):
     """YADE's engines around a contact functor."""
-    motion = yade.NewtonIntegrator(
-        damping=local, exactAsphericalRot=True, gravity=(0.0, 0.0, -gravity), label="motion"
-    )
+    engines = pile.engines(functor, normal=springs.normal, shear=springs.shear, viscous=viscous, local=local, **more)
     # The only method of YADE 2023.02a. The default of later ones steps the angular velocity, so that the angular
     # momentum is right only to the order of the step, and what a functor adds to it could not be told.
-    if hasattr(motion, "rotAlgorithm"):
-        motion.rotAlgorithm = "Fincham1992"
-    return [
-        yade.ForceResetter(),
-        # Exact boxes at every step: see pyramids.VERLET_DISTANCE.
-        yade.InsertionSortCollider(
-            [yade.PotentialParticle2AABB()],
-            verletDist=pyramids.VERLET_DISTANCE,
-            avoidSelfInteractionMask=SLAB_ONLY,
-            label="collider",
-        ),
-        yade.InteractionLoop(
-            [functor],
-            [
-                yade.Ip2_FrictMat_FrictMat_KnKsPhys(
-                    Knormal=springs.normal,
-                    Kshear=springs.shear,
-                    kn_i=springs.normal,
-                    ks_i=springs.shear,
-                    viscousDamping=viscous,
-                    useFaceProperties=False,
-                    brittleLength=5.0,
-                )
-            ],
-            [yade.Law2_SCG_KnKsPhys_KnKsLaw(allowViscousAttraction=False, neverErase=never_erase)],
-            label="contacts",
-        ),
-        motion,
-    ]
+    if hasattr(engines[-1], "rotAlgorithm"):
+        engines[-1].rotAlgorithm = "Fincham1992"
+    return engines
 
 
 def heap(case, kinds, seed):
@@ -121,7 +93,7 @@ def heap(case, kinds, seed):
 def place_pyramids(case, _springs, _area):
     """The pyramids of the demo, a dozen of them."""
     kind = pyramid(case.size)
-    return heap(case, [kind] * 12, pyramids.SEED)
+    return heap(case, [kind] * 12, pile.SEED)
 
 
 def place_cubes(case, _springs, _area):
@@ -175,52 +147,14 @@ def place_tower(case, springs, area):
 
 CASES = [
     Case(
-        name="pyramids",
-        size=pyramids.SIZE,
-        place=place_pyramids,
-        fixed=Springs(pyramids.NORMAL_STIFFNESS, pyramids.SHEAR_STIFFNESS, pyramids.TIME_STEP),
-        per_area=Springs(1e9, 5e8, 4e-5),
-        friction=pyramids.FRICTION_ANGLE,
-        viscous=pyramids.VISCOUS_DAMPING,
-        local=pyramids.LOCAL_DAMPING,
-        density=pyramids.DENSITY,
-        duration=0.9,
-    ),
-    Case(
-        name="cubes",
-        size=1.0,
-        place=place_cubes,
-        fixed=Springs(1e8, 1e7, 4e-4),
-        per_area=Springs(1e8, 1e7, 4e-4),
-        friction=0.0,
-        viscous=0.05,
-        local=0.0,
-        density=2000.0,
-        duration=3.0,
-    ),
-    Case(
-        name="tower",
-        size=1.0,
-        place=place_tower,
-        fixed=Springs(1e8, 5e7, 4e-4),
-        per_area=Springs(1e8, 5e7, 4e-4),
-        friction=30.0,
-        # Enough to still the slowest mode of the chain within the run.
-        viscous=1.0,
-        local=0.0,
-        density=2000.0,
-        duration=1.6,
-    ),
-    Case(
-        name="mixed",
-        size=0.1,
-        place=place_mixed,
-        fixed=Springs(1.5e6, 7.5e5, 1.2e-4),
-        per_area=Springs(5e8, 2.5e8, 3.5e-5),
-        friction=20.0,
-        viscous=0.3,
-        local=0.1,
-        density=2600.0,
-        duration=0.6,
-    ),
+        "pyramids", pile.SIZE, place_pyramids, Springs(pile.NORMAL_STIFFNESS, pile.SHEAR_STIFFNESS, pile.TIME_STEP),
+        Springs(1e9, 5e8, 4e-5), friction=pile.FRICTION_ANGLE, viscous=pile.VISCOUS_DAMPING, local=pile.LOCAL_DAMPING,
+        density=pile.DENSITY, duration=0.9),
+    Case("cubes", 1.0, place_cubes, Springs(1e8, 1e7, 4e-4), Springs(1e8, 1e7, 4e-4), friction=0.0, viscous=0.05,
+         local=0.0, density=2000.0, duration=3.0),
+    # So viscous that the slowest mode of the chain is still within the run.
+    Case("tower", 1.0, place_tower, Springs(1e8, 5e7, 4e-4), Springs(1e8, 5e7, 4e-4), friction=30.0, viscous=1.0,
+         local=0.0, density=2000.0, duration=1.6),
+    Case("mixed", 0.1, place_mixed, Springs(1.5e6, 7.5e5, 1.2e-4), Springs(5e8, 2.5e8, 3.5e-5), friction=20.0,
+         viscous=0.3, local=0.1, density=2600.0, duration=0.6),
 ]

@@ -62,16 +62,16 @@ def draw_cases(path, trials, machine):
     _save(figure, path)
 
 
-def draw_bounce(path, bounces):
-    """Energy after each bounce, a panel for each step length."""
+def draw_bounce(path, bounces, paths):
+    """Energy after each bounce, a panel for each step length; paths: the library's, YADE's and that of exact springs."""
     across = min(len(bounces), 2)
     down = -(-len(bounces) // across)
     figure, axes = plt.subplots(down, across, figsize=(5.6 * across, 3.9 * down), squeeze=False)
-    for axis, it in zip(axes.flat, bounces):
+    for axis, row, (library, builtin, exact) in zip(axes.flat, bounces, paths):
         for bounce, label, style in (
-            (it.exact, "exact springs, same integrator", {"color": FLOOR, "linewidth": 5, "alpha": 0.5}),
-            (it.library, f"this library, spin {it.library.spin:.0e} rad/s", {"color": OURS, "linewidth": 1.5}),
-            (it.builtin, f"built-in, spin {it.builtin.spin:.0e} rad/s",
+            (exact, "exact springs, same integrator", {"color": FLOOR, "linewidth": 5, "alpha": 0.5}),
+            (library, f"this library, spin {library.spin:.0e} rad/s", {"color": OURS, "linewidth": 1.5}),
+            (builtin, f"built-in, spin {builtin.spin:.0e} rad/s",
              {"color": THEIRS, "marker": ".", "linewidth": 1}),
         ):
             if bounce is None:
@@ -79,8 +79,8 @@ def draw_bounce(path, bounces):
             change = np.array(bounce.energies) / bounce.energies[0] - 1.0
             axis.plot(np.arange(len(change)), change, label=label, **style)
         axis.axhline(0.0, color="0.3", linewidth=0.6)
-        title = f"{it.steps_per_contact} steps a contact, springs {'per area' if it.area else 'fixed'}"
-        axis.set_title(title + (", contacts kept" if it.keep else ""), fontsize=10)
+        title = f"{row['steps_per_contact']} steps a contact, springs {row['springs']}"
+        axis.set_title(title + (", contacts kept" if row["law_keeps_contacts"] else ""), fontsize=10)
         axis.set_xlabel("bounce", fontsize=9)
         axis.ticklabel_format(axis="y", scilimits=(-2, 2))
         axis.tick_params(labelsize=8)
@@ -95,38 +95,19 @@ def draw_bounce(path, bounces):
 def draw_costs(path, stages, bodies):
     """Stacked bars of a step, on a scale for the library and the floor; the built-in's as a number."""
     figure, axis = plt.subplots(figsize=(8.6, 4.6))
-    parts = (
-        ("integrator", "motion", "#8da0cb"),
-        ("collider", "collider", "#66c2a5"),
-        ("law and loop", "law", "#e5c494"),
-        ("functor", "functor", OURS),
-    )
-    labelled = set()
+    colours = {"integrator": "#8da0cb", "collider": "#66c2a5", "law": "#e5c494", "functor": OURS}
     for number, stage in enumerate(stages):
-        for shift, cost, name in ((-0.2, stage.idle, "functor\nreturns at once"), (0.2, stage.library, "this library")):
-            law = 0.0 if cost is stage.idle else cost.law
-            values = {"motion": cost.motion, "collider": cost.collider, "law": law, "functor": cost.loop - law}
-            bottom = 0.0
-            for label, key, colour in parts:
-                axis.bar(
-                    number + shift,
-                    values[key],
-                    0.36,
-                    bottom,
-                    color=colour,
-                    edgecolor="white",
-                    linewidth=0.5,
-                    label=None if label in labelled else label,
-                )
-                labelled.add(label)
-                bottom += values[key]
-            text = f"{name}\n{bottom:,.0f} µs"
-            axis.text(number + shift, bottom, text, ha="center", va="bottom", fontsize=8)
-    axis.set_xticks(range(len(stages)))
-    axis.set_xticklabels(
-        [f"{stage.name}, step {stage.step:,}\nbuilt-in: {stage.builtin.whole:,.0f} µs" for stage in stages],
-        fontsize=10,
-    )
+        for shift, who, name in ((-0.2, "idle", "functor\nreturns at once"), (0.2, "library", "this library")):
+            cost, bottom = stage[f"{who}_microseconds"], 0.0
+            for part, colour in colours.items():
+                label = None if number or who == "library" else part
+                axis.bar(number + shift, cost[part], 0.36, bottom, color=colour, edgecolor="white", lw=0.5, label=label)
+                bottom += cost[part]
+            axis.text(number + shift, bottom, f"{name}\n{bottom:,.0f} µs", ha="center", va="bottom", fontsize=8)
+    axis.set_xticks(range(len(stages)), [
+        f"{stage['name']}, step {stage['step']:,}\nbuilt-in: {stage['built_in_microseconds']['step']:,.0f} µs"
+        for stage in stages
+    ], fontsize=10)
     axis.set_ylabel("one step, µs")
     axis.set_title(f"{bodies} pyramids: where the time of a step goes", fontsize=11)
     axis.margins(y=0.18)

@@ -7,17 +7,11 @@ it returns before it looks. Gravity is then off, since nothing carries the bodie
 velocities that they have, so that collider and integrator have their usual work.
 """
 
-from dataclasses import dataclass
-
 import yade
 from yade import O
 
-import pyramids
-from bodies import reach
-from box import Box
-from contact_functor import BUILTIN, LIBRARY, ContactFunctor
-from loose_grid import loose_grid
-from pyramid import pyramid
+from contact_functor import BUILTIN, ContactFunctor
+from pile import Pile
 from stepping import advance
 
 # A measurement: so many windows of so many steps. They are so short that some run without another program
@@ -29,61 +23,11 @@ WARM_UP = 2  # steps before
 SLOT = "side by side"  # of YADE's memory for scenes
 
 
-@dataclass
-class Cost:
-    """Of one step, us."""
-
-    collider: float
-    loop: float  # contacts: functor, physics, law
-    motion: float
-    whole: float  # all engines
-    contacts: int  # at the end
-    functor: float = None  # of the loop
-    pairs: float = None  # calls of the functor in a step
-
-    @property
-    def law(self):
-        """Of the loop: all but the functor, us."""
-        return self.loop - self.functor
-
-
-@dataclass
-class Stage:
-    """One state of the pile, stepped by everyone."""
-
-    name: str
-    step: int
-    library: Cost
-    builtin: Cost
-    idle: Cost
-
-    @property
-    def over_floor(self):
-        return self.library.whole / self.idle.whole
-
-    @property
-    def free_functor_over_floor(self):
-        """Of a step whose contacts are found at no cost: YADE's law and loop have their work all the same."""
-        return (self.idle.whole - self.idle.loop + self.library.law) / self.idle.whole
-
-    @property
-    def simulation_ratio(self):
-        return self.builtin.whole / self.library.whole
-
-    @property
-    def functor_ratio(self):
-        return (self.builtin.loop - self.library.law) / self.library.functor
-
-
 def measure_stages(count, stages, rounds=ROUNDS, progress=None):
-    """stages: (name, step) in order. Lets `count` pyramids fall and stops to measure at each."""
-    contact = ContactFunctor(LIBRARY, measure_time=False)
-    shape = pyramid(pyramids.SIZE)
-    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
-    half_width = grid.half_width + grid.height
-    box = Box(half_width, half_width, grid.height + pyramids.SIZE, thickness=pyramids.SIZE)
+    """stages: (name, step) in order. Lets `count` pyramids fall and stops to measure at each; a dictionary of each."""
     O.reset()
-    pyramids.build_scene(contact, shape, grid, box)
+    pile = Pile(count, room=1.0, measure_time=False)
+    pile.build()
     result = []
     for name, step in stages:
         while O.iter < step:
@@ -91,30 +35,54 @@ def measure_stages(count, stages, rounds=ROUNDS, progress=None):
             if progress:
                 progress(O.iter)
         O.saveTmp(SLOT)
-        turns = [(_library(contact), _clocked(contact), _idle()) for _ in range(rounds)]
+        turns = [(_library(pile.contact), _clocked(pile.contact), _idle()) for _ in range(rounds)]
         library, clocked, idle = ([cost for costs in group for cost in costs] for group in zip(*turns))
-        library, idle = _best(library), _best(idle)
-        _split_loop(library, clocked)
-        result.append(Stage(name, step, library, _best(_builtin()), idle))
-        _back(contact)
+        result.append({"name": name, "step": step, **_compared(library, clocked, _best(idle), _builtin())})
+        _back(pile.contact)
     return result
+
+
+def _compared(library, clocked, idle, builtin):
+    """Of one state: ratios, and each cost by part, us."""
+    ours, theirs = _best(library), _best(builtin)
+    # How much of the loop is the functor. Its clock takes time as well, half of it outside of what it reads.
+    clock = max(_best(clocked)["loop"] - ours["loop"], 0.0)
+    law = min(cost["loop"] - cost["functor"] for cost in clocked) - 0.5 * clock
+    law = min(max(law, 0.0), ours["loop"])
+
+    def parts(cost, law):
+        whole = {name: cost[name] for name in ("collider", "integrator", "step")}
+        return {**whole, "functor": cost["loop"] - law, "law": law}
+
+    return {
+        "over_floor": ours["step"] / idle["step"],
+        # Of a step whose contacts are found at no cost: YADE's law and loop have their work all the same.
+        "free_functor_over_floor": (idle["step"] - idle["loop"] + law) / idle["step"],
+        "simulation_ratio": theirs["step"] / ours["step"],
+        "functor_ratio": (theirs["loop"] - law) / (ours["loop"] - law),
+        "pairs": sum(cost["pairs"] for cost in clocked) / len(clocked),
+        "contacts": ours["contacts"],
+        "library_microseconds": parts(ours, law),
+        "built_in_microseconds": parts(theirs, law),
+        "idle_microseconds": parts(idle, 0.0),
+    }
 
 
 def _back(contact):
     """The saved state, with the library's functor."""
     O.loadTmp(SLOT)
-    contact.functor = _loop().geomDispatcher.functors[0]
+    contact.functor = _engine("contacts").geomDispatcher.functors[0]
     contact.prepare()
 
 
-def _loop():
-    return next(engine for engine in O.engines if engine.label == "contacts")
+def _engine(label):
+    return next(engine for engine in O.engines if engine.label == label)
 
 
 def _replace(functor):
     """The saved state with another functor; what YADE remembers of functors is new after loading."""
     O.loadTmp(SLOT)
-    _loop().geomDispatcher.functors = [functor]
+    _engine("contacts").geomDispatcher.functors = [functor]
 
 
 def _library(contact):
@@ -129,14 +97,6 @@ def _clocked(contact):
     return _costs(WINDOWS, WINDOW_STEPS, contact.functor)
 
 
-def _split_loop(library, clocked):
-    """How much of the loop is the functor. Its clock takes time as well, half of it outside of what it reads."""
-    clock = max(_best(clocked).loop - library.loop, 0.0)
-    beside = min(cost.loop - cost.functor for cost in clocked) - 0.5 * clock
-    library.functor = library.loop - min(max(beside, 0.0), library.loop)
-    library.pairs = sum(cost.pairs for cost in clocked) / len(clocked)
-
-
 def _builtin():
     _replace(ContactFunctor(BUILTIN).functor)
     return _costs(BUILTIN_WINDOWS, BUILTIN_STEPS)
@@ -146,19 +106,19 @@ def _idle():
     _replace(yade.Ig2_PP_PP_ScGeom())
     for body in O.bodies:
         body.shape.isBoundary = True
-    next(engine for engine in O.engines if engine.label == "motion").gravity = (0.0, 0.0, 0.0)
+    _engine("motion").gravity = (0.0, 0.0, 0.0)
     # Contacts that were real would be reported as lost, one by one.
     O.interactions.clear()
     return _costs(WINDOWS, WINDOW_STEPS)
 
 
 def _best(costs):
-    return min(costs, key=lambda cost: cost.whole)
+    return min(costs, key=lambda cost: cost["step"])
 
 
 def _costs(windows, steps, clocked=None):
-    """Of each window, after steps in which YADE finds its functors and sorts its boxes; clocked: a functor that
-    takes its own time."""
+    """Of each window, us a step, after steps in which YADE finds its functors and sorts its boxes; clocked: a functor
+    that takes its own time."""
     advance(O.iter + WARM_UP)
     costs = []
     for _ in range(windows):
@@ -168,14 +128,8 @@ def _costs(windows, steps, clocked=None):
             clocked.resetCounters()
         advance(O.iter + steps)
         each = {engine.label: engine.execTime / 1e3 / steps for engine in O.engines}
-        cost = Cost(
-            each["collider"],
-            each["contacts"],
-            each["motion"],
-            sum(each.values()),
-            contacts=O.interactions.countReal(),
-        )
+        costs.append({"collider": each["collider"], "loop": each["contacts"], "integrator": each["motion"],
+                      "step": sum(each.values()), "contacts": O.interactions.countReal()})
         if clocked:
-            cost.functor, cost.pairs = clocked.seconds / steps * 1e6, clocked.calls / steps
-        costs.append(cost)
+            costs[-1].update(functor=clocked.seconds / steps * 1e6, pairs=clocked.calls / steps)
     return costs

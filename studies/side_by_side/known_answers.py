@@ -1,7 +1,10 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Both functors on pairs whose contact is known to 40 digits (tests/data/pairs.jsonl)."""
 
+import contextlib
 import json
+import os
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -91,3 +94,18 @@ def _body(shape, place):
     w, x, y, z = place["q"]
     body.state.ori = Quaternion(w, x, y, z).normalized()
     return O.bodies.append(body)
+
+
+@contextlib.contextmanager
+def messages_to(path):
+    """Within, standard output goes to the end of a file, that of compiled code included."""
+    sys.stdout.flush()
+    terminal = os.dup(1)
+    try:
+        with open(path, "a") as file:
+            os.dup2(file.fileno(), 1)
+            yield
+            sys.stdout.flush()
+    finally:
+        os.dup2(terminal, 1)
+        os.close(terminal)

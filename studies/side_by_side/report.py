@@ -1,73 +1,50 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The tables on the terminal, and the plain values behind them."""
-
-import contextlib
-import io
+"""Targets, and the tables on the terminal."""
 
 from contact_functor import BUILTIN, DROP_IN
+from summary import print_columns, print_targets, target
+
+FUNCTOR_RATIO, SIMULATION_RATIO = 100, 50
+OVER_FLOOR_SETTLING, OVER_FLOOR_AT_REST = 2.0, 1.5
+ENERGY_DRIFT = 1e-4
 
 
-def bounce_row(comparison):
-    """One line of cubes: plain values."""
-    return {
-        "steps_per_contact": comparison.steps_per_contact,
-        "law_keeps_contacts": comparison.keep,
-        "springs": "per area" if comparison.area else "fixed",
-        "exact_springs_drift": comparison.exact.drift if comparison.exact else None,
-        "library": _bounce(comparison.library),
-        "built_in": _bounce(comparison.builtin),
-    }
+def targets(rows, bounces, stages):
+    """Each by the worst of its kind; parts that did not run are left out."""
+    result = []
+
+    def at_least(name, limit, values):
+        result.extend([target(name, "at least", limit, min(values))] if values else [])
+
+    def at_most(name, limit, values):
+        result.extend([target(name, "at most", limit, max(values))] if values else [])
+
+    def of(name, springs, scenes=("pyramids", "cubes", "tower", "mixed")):
+        return [row[name] for row in rows if row["springs"] == springs and row["scene"] in scenes]
+
+    def over_floor(name):
+        return [stage["over_floor"] for stage in stages if stage["name"] == name]
+
+    at_least("functor, without contact area: built-in / ours", FUNCTOR_RATIO, of("functor_ratio", "fixed"))
+    at_least("functor, with contact area: built-in / ours", FUNCTOR_RATIO, of("functor_ratio", "per area"))
+    at_least("simulation, pile of pyramids: built-in / ours", SIMULATION_RATIO,
+             [stage["simulation_ratio"] for stage in stages])
+    at_least("simulation, a dozen pyramids: built-in / ours", SIMULATION_RATIO,
+             of("simulation_ratio", "fixed", ("pyramids",)))
+    at_most("step while settling / step without contacts", OVER_FLOOR_SETTLING, over_floor("settling"))
+    at_most("step at rest / step without contacts", OVER_FLOOR_AT_REST, over_floor("at rest"))
+    at_most("energy, 50 bounces, finest step", ENERGY_DRIFT, [one["library"]["drift"] for one in bounces[-1:]])
+    at_most("contacts missed or invented by ours", 0, [_wrong(row["library"]) for row in rows])
+    at_most("measures of physics in which ours is worse", 0, [len(row["worse"]) for row in rows])
+    return result
 
 
-def _bounce(bounce):
-    times = bounce.durations
-    return {
-        "bounces": bounce.bounces,
-        "drift": bounce.drift,
-        "contact_time_over_ideal": sum(times) / len(times) / bounce.ideal_duration if times else None,
-        "spin": bounce.spin,
-        "microseconds_a_step": bounce.microseconds,
-    }
-
-
-def stage_row(stage):
-    """One state of the pile: plain values."""
-    return {
-        "name": stage.name,
-        "step": stage.step,
-        "over_floor": stage.over_floor,
-        "free_functor_over_floor": stage.free_functor_over_floor,
-        "simulation_ratio": stage.simulation_ratio,
-        "functor_ratio": stage.functor_ratio,
-        "pairs": stage.library.pairs,
-        "contacts": stage.library.contacts,
-        "library_microseconds": _parts(stage.library, stage.library.law),
-        "built_in_microseconds": _parts(stage.builtin, stage.library.law),
-        "idle_microseconds": _parts(stage.idle, 0.0),
-    }
-
-
-def _parts(cost, law):
-    return {
-        "collider": cost.collider,
-        "functor": cost.loop - law,
-        "law": law,
-        "integrator": cost.motion,
-        "step": cost.whole,
-    }
+def _wrong(physics):
+    return physics["missed_contacts"] + physics["invented_contacts"]
 
 
 def print_report(summary, out):
-    """Everything a person wants to read at the end; the tables also go to a file."""
-    text = io.StringIO()
-    with contextlib.redirect_stdout(text):
-        _print_tables(summary)
-    (out / "tables.txt").write_text(text.getvalue().lstrip("\n"))
-    print(text.getvalue(), end="")
-    print(f"Results: {out}: {', '.join(sorted(path.name for path in out.iterdir()))}", flush=True)
-
-
-def _print_tables(summary):
+    """Everything a person wants to read at the end."""
     if summary["rows"]:
         _print_cases(summary["rows"])
     if summary["bounces"]:
@@ -77,116 +54,62 @@ def _print_tables(summary):
     if summary["step_by_part"]["stages"]:
         _print_stages(summary["step_by_part"])
     if summary["targets"]:
-        _print_targets(summary["targets"])
-    print(f"\n{summary['seconds']:.0f} s in all. {summary['machine']}, {summary['date'][:10]}")
+        print_targets(summary["targets"])
+    print(f"{summary['seconds']:.0f} s in all. {summary['machine']}, {summary['date'][:10]}")
+    print(f"Results: {out}: {', '.join(sorted(path.name for path in out.iterdir()))}", flush=True)
 
 
 def _print_cases(rows):
     print("\nThe same scenes, built-in | ours, over the steps that both made")
-    table = [
-        ["scene", "springs", "steps", "us a pair", "x", "steps/s", "x", "overlap %", "contacts"]
-        + ["missed", "energy rise", "momentum", "worse"]
-    ]
+    table = [["scene", "springs", "steps", "us a pair", "x", "steps/s", "x", "contacts", "missed", "energy rise",
+              "momentum", "worse"]]
     for row in rows:
-        theirs, ours = row["built_in"], row["library"]
-        pair = lambda name, form: f"{_text(theirs[name], form)} | {_text(ours[name], form)}"
-        each = "microseconds_per_interaction"
-        table.append(
-            [
-                row["scene"],
-                row["springs"],
-                f"{row['steps_compared']:,}",
-                f"{theirs[each]:.0f} | {ours[each]:.2f}",
-                f"{row['functor_ratio']:.0f}",
-                pair("steps_per_second", ",.0f"),
-                f"{row['simulation_ratio']:.0f}",
-                f"{100 * theirs['largest_overlap_over_size']:.2f} | {100 * ours['largest_overlap_over_size']:.2f}",
-                pair("contacts", "d"),
-                f"{_missed(theirs)} | {_missed(ours)}",
-                pair("energy_rise", ".0e"),
-                pair("momentum_error", ".0e"),
-                ", ".join(row["worse"]) or "-",
-            ]
-        )
-    _columns(table)
-    tower = next((row for row in rows if "tower_height_error" in row["library"]), None)
-    if tower:
-        theirs, ours = (tower[name]["tower_height_error"] for name in ("built_in", "library"))
-        print(f"Tower: distance from the closed form, over the size: {theirs:.1e} | {ours:.1e}")
-
-
-def _missed(physics):
-    return f"{physics['missed_contacts'] + physics['invented_contacts']}/{physics['contacts_checked']}"
+        both = row["built_in"], row["library"]
+        pair = lambda name, form: " | ".join(_text(one[name], form) for one in both)
+        missed = " | ".join(f"{_wrong(one)}/{one['contacts_checked']}" for one in both)
+        table.append([
+            row["scene"], row["springs"], f"{row['steps_compared']:,}", pair("microseconds_per_interaction", ".3g"),
+            f"{row['functor_ratio']:.0f}", pair("steps_per_second", ",.0f"), f"{row['simulation_ratio']:.0f}",
+            pair("contacts", "d"), missed, pair("energy_rise", ".0e"), pair("momentum_error", ".0e"),
+            ", ".join(row["worse"]) or "-"
+        ])
+    print_columns(table)
 
 
 def _print_bounces(bounces, free):
-    print("\nTwo cubes bouncing head-on: change of energy, and spin (rad/s) that ought to be 0")
-    table = [[
-        "steps a contact", "springs", "contacts kept", "exact springs", "ours", "bounces", "spin", "built-in",
-        "bounces", "spin"
-    ]]
+    print("Two cubes bouncing head-on: change of energy, and spin (rad/s) that ought to be 0")
+    table = [["steps a contact", "springs", "contacts kept", "exact springs", "ours", "bounces", "spin", "built-in",
+              "bounces", "spin"]]
     for row in bounces:
-        ours, theirs = row["library"], row["built_in"]
-        table.append(
-            [str(row["steps_per_contact"]), row["springs"], "yes" if row["law_keeps_contacts"] else "no"]
-            + [_text(row["exact_springs_drift"], ".2e")] +
-            [text for it in (ours, theirs) for text in (f"{it['drift']:.2e}", str(it["bounces"]), f"{it['spin']:.1e}")])
-    _columns(table)
-    if free:
-        theirs, ours = free[BUILTIN], free[DROP_IN]
-        print(
-            "An oblique, spinning collision in free space changes momentum by "
-            f"{theirs['momentum_change']:.0e} | {ours['momentum_change']:.0e}, angular momentum by "
-            f"{theirs['angular_momentum_change']:.0e} | {ours['angular_momentum_change']:.0e}"
-        )
+        table.append([str(row["steps_per_contact"]), row["springs"], "yes" if row["law_keeps_contacts"] else "no",
+                      _text(row["exact_springs_drift"], ".2e"),
+                      *(text for it in (row["library"], row["built_in"])
+                        for text in (f"{it['drift']:.2e}", str(it["bounces"]), f"{it['spin']:.1e}"))])  # fmt: skip
+    print_columns(table)
+    for name in ("momentum_change", "angular_momentum_change") if free else ():
+        print(f"{name} in an oblique, spinning collision in free space: "
+              f"{free[BUILTIN][name]:.0e} | {free[DROP_IN][name]:.0e}")
 
 
 def _print_answers(answers):
     print("\nPairs known to 40 digits")
-    table = [["functor", "touching", "missed", "invented", "point error / R: median", "worst"]]
-    for kind, name in ((BUILTIN, "built-in"), (DROP_IN, "ours")):
-        if kind in answers:
-            it = answers[kind]
-            errors = [f"{it[f'{which}_point_error_over_R']:.1e}" for which in ("median", "worst")]
-            table.append([name, *(str(it[key]) for key in ("touching", "missed", "invented")), *errors])
-    _columns(table)
+    print_columns([["functor", "touching", "missed", "invented", "point error / R: median", "worst"]] + [
+        [kind, *(str(it[key]) for key in ("touching", "missed", "invented")),
+         *(f"{it[f'{which}_point_error_over_R']:.1e}" for which in ("median", "worst"))]
+        for kind, it in answers.items()])
 
 
 def _print_stages(pile):
-    print(f"\nOne step of {pile['bodies']} pyramids by part, us")
-    table = [[
-        "state", "functor", "pairs", "touching", "collider", "functor", "law, loop", "integrator", "step", "over floor"
-    ]]
-    for stage in pile["stages"]:
-        floor = stage["idle_microseconds"]["step"]
-        for key, name in (("idle", "none"), ("library", "ours"), ("built_in", "built-in")):
-            parts = stage[f"{key}_microseconds"]
-            table.append(
-                [stage["name"], name, f"{stage['pairs']:.0f}", str(stage["contacts"])]
-                + [f"{parts[part]:,.0f}" for part in ("collider", "functor", "law", "integrator", "step")]
-                + [f"{parts['step'] / floor:,.1f}"]
-            )
-    _columns(table)
+    print(f"One step of {pile['bodies']} pyramids by part, us")
+    parts = ("collider", "functor", "law", "integrator", "step")
+    print_columns([["state", "functor", "pairs", "touching", *parts, "over floor"]] + [
+        [stage["name"], name, f"{stage['pairs']:.0f}", str(stage["contacts"]),
+         *(f"{stage[f'{name}_microseconds'][part]:,.0f}" for part in parts),
+         f"{stage[f'{name}_microseconds']['step'] / stage['idle_microseconds']['step']:,.1f}"]
+        for stage in pile["stages"] for name in ("idle", "library", "built_in")])
     free = ", ".join(f"{stage['free_functor_over_floor']:.1f} {stage['name']}" for stage in pile["stages"])
     print(f"A functor that costs nothing but finds the same contacts would be over the floor by: {free}")
 
 
-def _print_targets(rows):
-    print()
-    table = [["what", "target", "measured", "met"]]
-    for row in rows:
-        table.append(
-            [row["name"], f"{row['sense']} {row['target']:g}", f"{row['measured']:.3g}", "yes" if row["met"] else "NO"])
-    _columns(table)
-
-
 def _text(value, form):
     return "-" if value is None else format(value, form)
-
-
-def _columns(table):
-    widths = [max(len(line[i]) for line in table) for i in range(len(table[0]))]
-    for number, line in enumerate(table):
-        print("  " + "  ".join(text.ljust(width) for text, width in zip(line, widths)).rstrip())
-        if number == 0:
-            print("  " + "  ".join("-" * width for width in widths))

@@ -17,20 +17,17 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 import yade
 
-import machine
 import settings
-from bounce import Comparison, HeadOn, momentum_change
+from bounce import HeadOn, momentum_change
 from cases import CASES
 from comparison import compare
 from contact_functor import BUILTIN, DROP_IN, ContactFunctor
 from figure import draw_bounce, draw_cases, draw_costs
 from floor import ROUNDS, measure_stages
-from known_answers import known_answers
-from messages import set_aside
+from known_answers import known_answers, messages_to
 from parts import Parts
-from report import bounce_row, print_report, stage_row
-from summary import write_summary
-from targets import targets
+from report import print_report, targets
+from summary import made, write_summary
 from trial import run_trial
 
 
@@ -69,7 +66,7 @@ def main():
     # An interrupted run does not draw all of them, and those of an earlier run would pass for its own.
     for old in [*out.glob("*.png"), *out.glob("*.txt"), *out.glob("summary.json")]:
         old.unlink()
-    results = {"rows": [], "bounces": [], "stages": [], "known_answers": {}, "free_collision": {}}
+    results = {"rows": [], "bounces": [], "paths": [], "stages": [], "known_answers": {}, "free_collision": {}}
     trials, interrupted = [], False
     print("YADE's built-in functor and this library's on the same scenes", flush=True)
     parts = [
@@ -96,9 +93,9 @@ def main():
     for area, name in ((False, "side_by_side.png"), (True, "side_by_side_per_area.png")):
         shown = [trial for trial in trials if trial[1] == area]
         if shown:
-            draw_cases(out / name, shown, machine.machine_line())
+            draw_cases(out / name, shown, made("")["machine"])
     if results["bounces"]:
-        draw_bounce(out / "bounce.png", results["bounces"])
+        draw_bounce(out / "bounce.png", results["bounces"], results["paths"])
     if results["stages"]:
         draw_costs(out / "step_time.png", results["stages"], plan.bodies)
     summary = summarise(plan, results, interrupted, time.perf_counter() - began)
@@ -128,7 +125,12 @@ def run_bounces(plan, results, report, _out):
         line = HeadOn(steps_per_contact, keep, plan.bounce_count)
         library, builtin = line.run(DROP_IN, area), line.run(BUILTIN, area, plan.seconds)
         exact = None if area else line.exact
-        results["bounces"].append(Comparison(steps_per_contact, keep, area, exact, library, builtin))
+        results["paths"].append((library, builtin, exact))
+        results["bounces"].append({
+            "steps_per_contact": steps_per_contact, "law_keeps_contacts": keep,
+            "springs": "per area" if area else "fixed", "exact_springs_drift": exact.drift if exact else None,
+            "library": library.summary(), "built_in": builtin.summary()
+        })
         report((number + 1) / len(plan.bounces))
     for kind in (DROP_IN, BUILTIN):
         linear, angular = momentum_change(kind, area=False)
@@ -144,28 +146,26 @@ def run_pile(plan, results, report, _out):
 def run_answers(plan, results, _report, out):
     for kind in (DROP_IN, BUILTIN):
         # YADE's functor writes a line for each ray that it loses.
-        with set_aside(out / "yade_messages.txt"):
+        with messages_to(out / "yade_messages.txt"):
             results["known_answers"][kind] = known_answers(kind, plan.every).summary()
 
 
 def summarise(plan, results, interrupted, seconds):
-    bounces = [bounce_row(bounce) for bounce in results["bounces"]]
-    stages = [stage_row(stage) for stage in results["stages"]]
+    rows, bounces, stages = (results[name] for name in ("rows", "bounces", "stages"))
     return {
         "quick": plan.quick,
         "interrupted": interrupted,
         "seconds": seconds,
         # A quick run is too short to be judged.
-        "targets": [] if plan.quick else targets(results["rows"], bounces, stages),
-        "rows": results["rows"],
+        "targets": [] if plan.quick else targets(rows, bounces, stages),
+        "rows": rows,
         "bounces": bounces,
         "free_collision": results["free_collision"],
         "known_answers": results["known_answers"],
         "step_by_part": {"bodies": plan.bodies, "stages": stages},
         "threads": yade.O.numThreads,
         "versions": {"yade": yade.config.version, **ContactFunctor(DROP_IN).versions()},
-        "machine": machine.machine_line(),
-        "date": machine.now(),
+        **made("make side-by-side"),
     }
 
 

@@ -3,7 +3,6 @@
 
 from dataclasses import dataclass, field
 
-import yade
 from yade import O
 
 from cases import Springs, loop

@@ -240,6 +240,8 @@ def mpi(outcome):
     yield "no failure, no warning", "60 rocks on 3 ranks" in outcome.said and "failures: none" in outcome.said and not any(
         word in outcome.said for word in ("SceneWarning", "pass through"))
     yield "saved", (outcome.folder / "rocks.yade.gz").stat().st_size > 1000
+    yield "sound", all(one["met"] for one in outcome.summary()["targets"])
+    yield outcome.pictures("rocks.png")
 
 
 @part("demo", *YADE, "studies/pyramids.py", STEPS=1500, BODIES=12)

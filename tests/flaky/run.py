@@ -25,7 +25,7 @@ sys.path[:0] = [str(TOP / "tests"), str(TOP / "scripts"), str(TOP / "studies")]
 
 import test as stages
 from checks import jobs
-from files import write_summary
+from summary import write_summary
 
 OUT = TOP / "out" / "flaky"
 # A second clone, at a path that is hard to quote.

@@ -8,7 +8,6 @@ sys.path.insert(0, str(Path(sys.argv[0]).resolve().parents[2] / "studies"))
 
 import numpy as np
 import yade
-from contact_functor import LIBRARY, ContactFunctor
 from dataclasses import replace
 from friction_reduction import FrictionReduction, errors
 from harness import *
@@ -79,7 +78,7 @@ CASES = [
 ]
 # Two threads only take longer over four bodies: there it is enough that they find the same.
 for case in CASES if O.numThreads == 1 else CASES[:2]:
-    scene = WedgeScene(case, WedgeBlocks(case.plane_a, case.plane_b, case.size), ContactFunctor(LIBRARY))
+    scene = WedgeScene(case, WedgeBlocks(case.plane_a, case.plane_b, case.size))
     result = FrictionReduction(scene, bracket=BRACKET).run()
     error = errors(result, scene.blocks.limit, scene.weight)
     check.true(0 < result.holds_at - result.slides_at <= 0.01, f"{case.name}: bracket")

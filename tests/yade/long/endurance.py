@@ -17,7 +17,7 @@ import yade
 from yade import O
 
 import scene
-import pyramids
+import pile
 from contact_functor import LIBRARY
 from progress import Progress
 from stepping import advance
@@ -32,7 +32,7 @@ def main():
     bodies, settle, steps = (int(os.environ[name]) for name in ("BODIES", "SETTLE", "STEPS"))
     shaken = os.environ["SHAKEN"] == "1"
     box = scene.build(bodies, LIBRARY)
-    watch = Watch(range(scene.SLABS, scene.SLABS + bodies), pyramids.GRAVITY)
+    watch = Watch(range(scene.SLABS, scene.SLABS + bodies), pile.GRAVITY)
     functor = O.engines[2].geomDispatcher.functors[0]
     progress = Progress(settle + steps)
     looks, interrupted = [], False
@@ -56,7 +56,7 @@ def main():
         "threads": O.numThreads, "looks": looks, "calls": functor.calls, "answers": functor.answers,
         "failure_report": functor.failureReport,
         "weight_times_size_J": sum(O.bodies[i].state.mass for i in range(scene.SLABS, scene.SLABS + bodies))
-        * pyramids.GRAVITY * scene.SIZE}))
+        * pile.GRAVITY * scene.SIZE}))
 
 
 def look(watch, box, functor):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pile of studies/pyramids.py with another number of bodies, and how its states are compared."""
+"""The pile of studies/pile.py with another number of bodies, and how its states are compared."""
 import sys
 from pathlib import Path
 
@@ -8,26 +8,17 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "studies"))
 import numpy as np
 from yade import O
 
-import pyramids
-from bodies import reach
-from box import Box
-from contact_functor import ContactFunctor
-from loose_grid import loose_grid
-from pyramid import pyramid
+from pile import SIZE, Pile
 
 SLABS = 5  # the first bodies: floor and walls
-SIZE = pyramids.SIZE
+ROOM = 0.3  # so near that a shaken heap comes to lean on the walls
 
 
 def build(count, functor):
     """Pyramids above a floor between four walls; returns the box."""
-    shape = pyramid(SIZE)
-    grid = loose_grid(count, reach(shape), pyramids.JITTER, pyramids.SEED)
-    # So near that a shaken heap comes to lean on the walls.
-    half_width = grid.half_width + 0.3 * grid.height
-    box = Box(half_width, half_width, grid.height + SIZE, thickness=SIZE)
-    pyramids.build_scene(ContactFunctor(functor), shape, grid, box)
-    return box
+    pile = Pile(count, functor, room=ROOM)
+    pile.build()
+    return pile.box
 
 
 def state():

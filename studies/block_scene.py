@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The scene of every case: blocks with flat faces, springs and friction, and all numerical choices, which no case
-changes.
+"""The scene of classics and of the sliding wedge: blocks with flat faces, springs and friction, and all numerical
+choices, which no case of the classics changes.
 
 Every length below is relative to the size of the scene, the diameter of the largest ball in its smallest block.
 
@@ -53,31 +53,36 @@ FREE_MASK, FIXED_MASK, FIXED_ONLY = 0b01, 0b11, 0b10
 class Scene:
     """Empties YADE's scene. Add blocks, then `start`.
 
-    size: m; load: the largest force of a contact at rest, as the weight of so much volume (m^3) of rock.
+    size: m; load: the largest force of a contact at rest, as the weight of so much volume (m^3) of rock; overlap: under
+    that force, over the size, in place of what follows from OVERLAP; shear: of the normal stiffness.
     """
 
-    def __init__(self, size, load, moving=False, rounding=ROUNDING, sphericity=0.0):
+    bulge, spring_step, tilt_step = BULGE, SPRING_STEP, TILT_STEP
+
+    def __init__(self, size, load, moving=False, rounding=ROUNDING, sphericity=0.0, overlap=None, shear=SHEAR,
+                 density=DENSITY):
         O.reset()
         self.moving = moving
         self.size, self.rounding, self.sphericity = size, rounding * size, sphericity
-        self.load = load * DENSITY * GRAVITY
-        self.overlap = size * max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP,
-                                  min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.density, self.shear = density, shear
+        self.load = load * density * GRAVITY
+        if overlap is None:
+            overlap = max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP,
+                          min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+        self.overlap = size * overlap
         self.stiffness = self.load / self.overlap
         # The unit of motions: joints give way by more than their overlap.
         self.motion_unit = max(self.overlap, size * OVERLAP)
-        self.friction = 0.0
-        self.functor = None
         self.material = O.materials[O.materials.append(self._material())]
 
     def _material(self):
         if not self.moving:
-            return yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=DENSITY)
+            return yade.FrictMat(young=1.0, poisson=1.0, frictionAngle=0.0, density=self.density)
         dashpot = DASHPOT * np.sqrt(self.stiffness * self.load / GRAVITY)
         # YADE puts the values of both bodies in series: twice each gives what is wanted.
         return yade.ViscElMat(
-            kn=2.0 * self.stiffness, ks=2.0 * SHEAR * self.stiffness, cn=2.0 * dashpot, cs=0.0,
-            frictionAngle=0.0, density=DENSITY,
+            kn=2.0 * self.stiffness, ks=2.0 * self.shear * self.stiffness, cn=2.0 * dashpot, cs=0.0,
+            frictionAngle=0.0, density=self.density,
         )  # fmt: skip
 
     # --- blocks ---------------------------------------------------------------------------------
@@ -100,9 +105,9 @@ class Scene:
 
     def start(self, friction, gravity=(0.0, 0.0, -GRAVITY), before=()):
         """Engines and time step; friction angle in degrees. `before`: engines that run before the contacts."""
-        bulge = BULGE * self.overlap / self.rounding
+        bulge = self.bulge * self.overlap / self.rounding
         regularisation = {"flatRegularisation": bulge} if self.sphericity == 0.0 else {}
-        self.functor = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False, **regularisation)
+        functor = yade.Ig2_ConicPP_ConicPP_ScGeom(calContactArea=False, **regularisation)
         physics, law = self._laws()
         O.engines = [
             yade.ForceResetter(),
@@ -111,12 +116,12 @@ class Scene:
                 [yade.Bo1_ConicPP_Aabb()], verletDist=0.02 * self.size, avoidSelfInteractionMask=FIXED_ONLY
             ),
             *before,
-            yade.ConicInteractionLoop([self.functor], [physics], [law]),
+            yade.ConicInteractionLoop([functor], [physics], [law], label="contacts"),
             yade.NewtonIntegrator(damping=0.0 if self.moving else DAMPING, gravity=gravity, exactAsphericalRot=True),
         ]
         if JOINTS:
             use_joints(normalStiffness=self.stiffness / self.size**2,
-                       shearStiffness=SHEAR * self.stiffness / self.size**2,
+                       shearStiffness=self.shear * self.stiffness / self.size**2,
                        restitution=RESTITUTION if self.moving else RESTITUTION_AT_REST)
         O.dt = self._time_step_of_joints() if JOINTS else self._time_step(max(bulge, self.sphericity))
         self.set_friction(friction)
@@ -128,7 +133,7 @@ class Scene:
         def value(number):
             return yade.MatchMaker(algo="val", val=float(number))
 
-        physics = yade.Ip2_FrictMat_FrictMat_FrictPhys(kn=value(self.stiffness), ks=value(SHEAR * self.stiffness))
+        physics = yade.Ip2_FrictMat_FrictMat_FrictPhys(kn=value(self.stiffness), ks=value(self.shear * self.stiffness))
         # Levers of forces run to the contact point, not along the normal as for spheres.
         return physics, yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)
 
@@ -139,7 +144,7 @@ class Scene:
             springs = np.sqrt(self.stiffness / one.state.mass)
             lever = one.shape.boundingRadius**2 / (curving * self.rounding)
             tilting = np.sqrt(self.load * lever / min(one.state.inertia))
-            least = min(least, SPRING_STEP / springs, TILT_STEP / tilting)
+            least = min(least, self.spring_step / springs, self.tilt_step / tilting)
         return least
 
     def _time_step_of_joints(self):
@@ -152,8 +157,13 @@ class Scene:
             area = np.pi * radius**2
             springs = self.stiffness * area / self.size**2 * max(1.0 / one.state.mass,
                                                                  0.5 * radius**2 / min(one.state.inertia))
-            least = min(least, SPRING_STEP / np.sqrt(springs))
+            least = min(least, self.spring_step / np.sqrt(springs))
         return least
+
+    @property
+    def functor(self):
+        """The contact functor; loading a saved state makes a new one, as of all engines."""
+        return next(one for one in O.engines if one.label == "contacts").geomDispatcher.functors[0]
 
     @property
     def motion(self):
