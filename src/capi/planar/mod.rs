@@ -2,7 +2,6 @@
 
 mod batch;
 mod contact;
-mod convert;
 mod particle;
 mod patch;
 mod shape;
