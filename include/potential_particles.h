@@ -141,20 +141,6 @@
 
 #define PP_STRUCT_EQUILIBRIUM_RESULT 37
 
-// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
-// inactive; the derivative of s is the same either way.
-#define PP_DERIVATIVE_SWITCHING 1
-
-// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
-// derivatives may be as large as 1/flat_regularisation.
-#define PP_DERIVATIVE_FREE 2
-
-// The contact is separated: overlap and surface points have no derivatives, and are NaN.
-#define PP_DERIVATIVE_SEPARATED 4
-
-// Fewer than four digits may be right: depths of planes are of the size of their rounding.
-#define PP_DERIVATIVE_IMPRECISE 8
-
 // Question of pp_equilibrium: do forces exist that hold all bodies?
 #define PP_STANDS 0
 
@@ -201,26 +187,6 @@
 // Size of a message buffer that holds every message whole.
 #define PP_MESSAGE_SIZE 512
 
-// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
-// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
-// which the estimated error does not tell: the far side of a rod that goes through the other body.
-#define PP_PATCH_FOLDED 1
-
-// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
-// how far off the answer may be.
-#define PP_PATCH_TOLERANCE_NOT_REACHED 2
-
-// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
-// nearly): the patch is that of slightly rounder bodies.
-#define PP_PATCH_DEEP 4
-
-// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
-#define PP_PATCH_EMPTY 8
-
-// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
-// are those of that pose.
-#define PP_PATCH_CARRIED 16
-
 // A side of the domain.
 #define PP_FACE_OF_DOMAIN 0
 
@@ -248,6 +214,12 @@
 
 // The two particles overlap: s < 1.
 #define PP_OVERLAPPING 2
+
+// pp_closest_point: the point P1 on A, where s_B is least.
+#define PP_ON_A 0
+
+// pp_closest_point: the point P2 on B, where s_A is least.
+#define PP_ON_B 1
 
 // "closest" was asked for and has no answer: the centre (for k = 0, the core) of one particle lies inside
 // the other, or may do so within rounding, and |P1 - P2| is no overlap then. All fields are those of midway.
@@ -296,11 +268,42 @@
 // midway's overlap is.
 #define PP_FLAG_FREE 4096
 
-// pp_closest_point: the point P1 on A, where s_B is least.
-#define PP_ON_A 0
+// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
+// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
+// which the estimated error does not tell: the far side of a rod that goes through the other body.
+#define PP_PATCH_FOLDED 1
 
-// pp_closest_point: the point P2 on B, where s_A is least.
-#define PP_ON_B 1
+// The tolerance was not reached with the most rays (1500, or two million planes looked at), or is beyond what
+// rounding allows where the bodies hardly touch (overlaps of 1e-11 of their size at 1e-4); error tells how far
+// off the answer may be.
+#define PP_PATCH_TOLERANCE_NOT_REACHED 2
+
+// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
+// nearly): the patch is that of slightly rounder bodies.
+#define PP_PATCH_DEEP 4
+
+// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
+#define PP_PATCH_EMPTY 8
+
+// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): it has no points,
+// and area and moments are those of that pose.
+#define PP_PATCH_CARRIED 16
+
+// Whether a plane is active at the contact point, or at a surface point, is uncertain within the bound on that
+// point. The derivatives are those with the plane inactive; the derivative of s is the same either way.
+#define PP_DERIVATIVE_SWITCHING 1
+
+// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
+// derivatives may be as large as 1/flat_regularisation, and hold for motions of about its size only. Raise it
+// for derivatives of practical use.
+#define PP_DERIVATIVE_FREE 2
+
+// The contact is separated: overlap and surface points have no derivatives, and are NaN.
+#define PP_DERIVATIVE_SEPARATED 4
+
+// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a
+// boundary, by bodies whose r is 1e-11 of their size), or planes switch even in 32 digits.
+#define PP_DERIVATIVE_IMPRECISE 8
 
 // A validated particle. Created by pp_particle_new, released by pp_particle_free; immutable,
 // so that bodies and threads may share one.
@@ -1616,6 +1619,21 @@ pp_status pp_patch_derivatives_on_boundary(const struct pp_particle *a,
                                            double tolerance,
                                            struct pp_patch_derivatives *out);
 
+// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
+//
+// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
+// for frames, units and signs.
+// Pointers: state and out are not used by another call at the same time.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
+// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
+                               const struct pp_pose_2d *pose_a,
+                               const struct pp_particle_2d *b,
+                               const struct pp_pose_2d *pose_b,
+                               const struct pp_settings *settings,
+                               struct pp_pair_state *state,
+                               struct pp_contact_2d *out);
+
 // Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 // where every argument, status and error is explained.
 //
@@ -1633,21 +1651,6 @@ pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particl
                                      struct pp_pair_state *states,
                                      struct pp_contact_2d *contacts,
                                      pp_status *statuses);
-
-// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
-//
-// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
-// for frames, units and signs.
-// Pointers: state and out are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
-// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
-pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
-                               const struct pp_pose_2d *pose_a,
-                               const struct pp_particle_2d *b,
-                               const struct pp_pose_2d *pose_b,
-                               const struct pp_settings *settings,
-                               struct pp_pair_state *state,
-                               struct pp_contact_2d *out);
 
 // The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
 // (paper eqs 3, 9). As pp_closest_point.

@@ -5,8 +5,8 @@
 //! (with MIRIFLAGS=-Zmiri-disable-isolation where the clock is wanted). Everything else about it: tests/c.
 #![allow(unsafe_code)]
 
-use potential_particles::Kind;
 use potential_particles::capi::*;
+use potential_particles::{Flags, Kind};
 use std::mem::MaybeUninit;
 use std::ptr;
 
@@ -198,7 +198,7 @@ fn a_batch_carries_contacts_on() {
             )
         };
         assert_eq!((called, unsafe { status.assume_init() }), (PP_OK, PP_OK));
-        assert_eq!(unsafe { contact.assume_init() }.flags.bits() & PP_FLAG_CARRIED != 0, step > 0);
+        assert_eq!(unsafe { contact.assume_init() }.flags.contains(Flags::CARRIED), step > 0);
     }
     unsafe { pp_particle_free(body) };
 }

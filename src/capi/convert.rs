@@ -43,8 +43,8 @@ pub(super) fn finite<const N: usize>(v: &[f64; N]) -> Result<SVector<f64, N>, pp
 
 pub(super) fn settings_to(settings: &Settings) -> pp_settings {
     pp_settings {
-        formulation: formulation_code(settings.formulation),
-        back_end: back_end_code(settings.back_end),
+        formulation: settings.formulation as u32,
+        back_end: settings.back_end as u32,
         solve_separated: settings.solve_separated.into(),
         reserved: 0,
         gap_tolerance: settings.gap_tolerance,
@@ -109,21 +109,5 @@ pub(super) fn settings_status(error: SettingsError) -> pp_status {
     match error {
         SettingsError::NoConeProgram => PP_NO_CONE_PROGRAM,
         _ => PP_BAD_SETTING,
-    }
-}
-
-#[inline]
-pub(super) fn formulation_code(formulation: Formulation) -> u32 {
-    match formulation {
-        Formulation::Midway => PP_MIDWAY,
-        Formulation::Closest => PP_CLOSEST,
-    }
-}
-
-#[inline]
-pub(super) fn back_end_code(back_end: BackEnd) -> u32 {
-    match back_end {
-        BackEnd::Fast => PP_FAST,
-        BackEnd::ConeProgram => PP_CONE_PROGRAM,
     }
 }

@@ -13,17 +13,6 @@ use crate::{
     boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
 };
 
-/// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
-/// inactive; the derivative of s is the same either way.
-pub const PP_DERIVATIVE_SWITCHING: u32 = 1;
-/// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
-/// derivatives may be as large as 1/flat_regularisation.
-pub const PP_DERIVATIVE_FREE: u32 = 2;
-/// The contact is separated: overlap and surface points have no derivatives, and are NaN.
-pub const PP_DERIVATIVE_SEPARATED: u32 = 4;
-/// Fewer than four digits may be right: depths of planes are of the size of their rounding.
-pub const PP_DERIVATIVE_IMPRECISE: u32 = 8;
-
 /// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: shift of A
 /// along x, y, z; rotation of A about x, y, z through its position (world axes, radians); then the same six
 /// of B.
@@ -231,11 +220,11 @@ fn status_of(error: DerivativeError) -> pp_status {
 
 /// The rows of x, y and z.
 pub(super) fn rows(rows: &PoseRows) -> [[f64; 12]; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|column| rows[(i, column)]))
+    rows.transpose().into()
 }
 
 fn derivatives_to(found: ContactDerivatives) -> pp_derivatives {
-    let row = |row: &PoseRow| std::array::from_fn(|column| row[column]);
+    let row = |row: &PoseRow| row.transpose().into();
     pp_derivatives {
         flags: found.flags.bits(),
         reserved: 0,

@@ -10,22 +10,6 @@ use crate::{Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PatchSta
 use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use std::cell::RefCell;
 
-/// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
-/// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
-/// which the estimated error does not tell: the far side of a rod that goes through the other body.
-pub const PP_PATCH_FOLDED: u32 = 1;
-/// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
-/// how far off the answer may be.
-pub const PP_PATCH_TOLERANCE_NOT_REACHED: u32 = 2;
-/// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
-/// nearly): the patch is that of slightly rounder bodies.
-pub const PP_PATCH_DEEP: u32 = 4;
-/// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
-pub const PP_PATCH_EMPTY: u32 = 8;
-/// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
-/// are those of that pose.
-pub const PP_PATCH_CARRIED: u32 = 16;
-
 /// The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
 /// both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
 /// (force/length^3). What is proportional to K is given over K. World axes; lengths in the caller's unit.

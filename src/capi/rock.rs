@@ -7,7 +7,7 @@ use super::output::{New, release};
 use super::rock_joints::{joints_from, pp_joint, sum_of};
 use super::status::*;
 use crate::Plane;
-use crate::rock::{Partners, RockError, RockMass, SliceSettings, slice_with_regions};
+use crate::rock::{Partners, RockMass, SliceSettings, slice_with_regions};
 use std::ffi::{c_char, c_void};
 
 /// Limits of a rock mass.
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn pp_rock_new(
             let regions: Vec<Vec<Plane>> =
                 region_counts.iter().map(|count| left.by_ref().take(*count).collect()).collect();
             // SAFETY: NULL or the caller's.
-            let settings = settings_of(unsafe { settings.as_ref() })?;
+            let settings = settings_of(unsafe { settings.as_ref() });
             Ok(pp_rock::of(slice_with_regions(&planes_of(planes), &joints, &regions, &settings, goes_on)?))
         }
     )
@@ -129,24 +129,19 @@ pub unsafe extern "C" fn pp_rock_free(rock: *mut pp_rock) {
     unsafe { release(rock) }
 }
 
-fn settings_of(settings: Option<&pp_slice_settings>) -> Result<SliceSettings, RockError> {
-    let Some(settings) = settings else { return Ok(SliceSettings::default()) };
-    let not_negative = |value: f64, name: &'static str| {
-        let is_fine = value >= 0.0 && value.is_finite();
-        if is_fine { Ok(value) } else { Err(RockError::OutOfRange { name, value, range: "0 or above" }) }
-    };
-    Ok(SliceSettings {
-        least_volume: not_negative(settings.least_volume, "least_volume")?,
-        least_thickness: not_negative(settings.least_thickness, "least_thickness")?,
-        least_width: not_negative(settings.least_width, "least_width")?,
-        largest_aspect: match not_negative(settings.largest_aspect, "largest_aspect")? {
-            0.0 => f64::INFINITY,
-            aspect => aspect,
+fn settings_of(settings: Option<&pp_slice_settings>) -> SliceSettings {
+    let Some(settings) = settings else { return SliceSettings::default() };
+    let whole = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+    SliceSettings {
+        least_volume: settings.least_volume,
+        least_thickness: settings.least_thickness,
+        least_width: settings.least_width,
+        largest_aspect: if settings.largest_aspect == 0.0 { f64::INFINITY } else { settings.largest_aspect },
+        threads: whole(settings.threads),
+        most_blocks: if settings.most_blocks == 0 {
+            SliceSettings::default().most_blocks
+        } else {
+            whole(settings.most_blocks)
         },
-        threads: usize::try_from(settings.threads).unwrap_or(usize::MAX),
-        most_blocks: match settings.most_blocks {
-            0 => SliceSettings::default().most_blocks,
-            most => usize::try_from(most).unwrap_or(usize::MAX),
-        },
-    })
+    }
 }

@@ -1,7 +1,7 @@
-//! The contact of one pair of the plane, its length, and one closest point alone.
+//! The contacts of one pair of the plane and of many, its length, and one closest point alone.
 
-use super::particle::pp_particle_2d;
-use super::types::pp_pose_2d;
+use super::particle::{pp_particle_2d, pp_pose_2d};
+use crate::capi::batch::detect_batch;
 use crate::capi::convert::{detect_status, role_from};
 use crate::capi::fence::{call, give};
 use crate::capi::status::*;
@@ -42,6 +42,31 @@ pub(super) fn contact(
     let found = detect(a.0, a.1, b.0, b.1, settings, state).map_err(detect_status)?;
     out.write(found);
     Ok(())
+}
+
+/// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
+/// where every argument, status and error is explained.
+///
+/// Each contact and state is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
+/// the number of threads.
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
+/// PP_BAD_INDEX (a count that no memory could hold).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_detect_batch_2d(
+    particles: *const *const pp_particle_2d,
+    poses: *const pp_pose_2d,
+    body_count: usize,
+    pairs: *const u32,
+    pair_count: usize,
+    settings: *const pp_settings,
+    threads: u32,
+    states: *mut pp_pair_state,
+    contacts: *mut pp_contact_2d,
+    statuses: *mut pp_status,
+) -> pp_status {
+    let bodies = (particles, poses, body_count);
+    // SAFETY: as the caller has promised.
+    unsafe { detect_batch(bodies, (pairs, pair_count), settings, threads, states, (contacts, statuses), contact) }
 }
 
 /// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B

@@ -10,6 +10,17 @@ use crate::capi::status::*;
 use crate::planar::{Line, Particle};
 use std::ffi::c_char;
 
+/// Where a body of the plane is: world = rotation(angle) * local + position.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_pose_2d {
+    /// Centre of the particle (origin of its local frame), world frame, length units of the caller.
+    pub position: [f64; 2],
+    /// Angle of the local axes in the world, radians, anticlockwise, from -2^30 to 2^30; beyond, take
+    /// whole turns off. It counts as exact.
+    pub angle: f64,
+}
+
 /// A validated particle of the plane. Created by pp_particle_new_2d, released by
 /// pp_particle_free_2d; immutable, so that bodies and threads may share one.
 pub struct pp_particle_2d(pub(in crate::capi) Particle);

@@ -1,7 +1,6 @@
 //! The contact patch in the plane.
 
-use super::particle::pp_particle_2d;
-use super::types::pp_pose_2d;
+use super::particle::{pp_particle_2d, pp_pose_2d};
 use crate::capi::fence::call;
 use crate::capi::patch::{Answer, answer, pp_patch_state, settings};
 use crate::capi::status::*;

@@ -1,12 +1,26 @@
 //! What can be asked of a particle of the plane.
 
-use super::particle::pp_particle_2d;
-use super::types::{pp_area_properties, pp_pose_2d};
+use super::particle::{pp_particle_2d, pp_pose_2d};
 use crate::capi::convert::finite;
 use crate::capi::fence::give;
 use crate::capi::output::IfWanted;
 use crate::capi::status::*;
 use nalgebra::Vector2;
+
+/// Area and second moments of a particle of the plane of unit density, in its local frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_area_properties {
+    /// Area, length^2.
+    pub area: f64,
+    /// Centroid, local frame.
+    pub centroid: [f64; 2],
+    /// xx, yy, xy of the integral of x x^T dA about the local origin, length^4. xx + yy is the moment of inertia
+    /// of a body that turns in the plane.
+    pub second_moment: [f64; 3],
+    /// Estimated bound on the relative error, as in struct pp_mass_properties.
+    pub error: f64,
+}
 
 /// f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
 /// be NULL).
