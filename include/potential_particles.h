@@ -331,7 +331,7 @@ typedef struct pp_pose {
     double orientation[4];
 } pp_pose;
 
-// How to solve. Fill with pp_settings_default, then change what you need; a NULL pointer in
+// How to solve. Fill with the defaults (pp_settings_default), then change what you need; a NULL pointer in
 // place of a pp_settings means the defaults.
 typedef struct pp_settings {
     // PP_MIDWAY (default) or PP_CLOSEST.
@@ -343,20 +343,25 @@ typedef struct pp_settings {
     uint32_t solve_separated;
     // Must be 0.
     uint32_t reserved;
-    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
+    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12, a decade above what
+    // rounding leaves for well-conditioned pairs. Where rounding leaves more, the answer has
+    // PP_FLAG_ROUNDING_LIMITED. Below 1e-13 the solver goes on in extended precision (some 10 us) until the gap
+    // is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
     double gap_tolerance;
-    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
-    // in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
+    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2, in [0, 1], default
+    // 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     double weight_on_a;
-    // Where k is below this, the contact point on a flat face is chosen as if k were this value; shape, s
-    // and overlap stay those of the given k. In [0, 0.1], default 1e-13; smaller values count as 1e-13.
-    // Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides whether
-    // particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
+    // Where k is below this, the contact point on a flat face is chosen as if k were this value (about a sphere
+    // of the bounding radius); shape, s and overlap stay those of the given k within the gap, which grows by at
+    // most this value. In [0, 0.1], default 1e-13, the smallest whose pull on a flat face of unit size exceeds
+    // rounding; smaller values count as 1e-13. For exactly parallel faces any value gives the point nearest to
+    // the centres. Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides
+    // whether particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
     // 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    // pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
-    // smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
-    // PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
+    // pair and not solved (PP_FLAG_CARRIED), where no plane can have switched and its point is known to this
+    // share of the smaller bounding radius; a separated pair, as long as s is surely above 1. In [0, 0.1]; 1e-9
+    // is a good choice. Needs a pp_pair_state; contacts of PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     double carry_tolerance;
 } pp_settings;
 

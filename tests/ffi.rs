@@ -179,7 +179,7 @@ fn a_batch_carries_contacts_on() {
     let mut state = EMPTY;
     let mut settings = MaybeUninit::<pp_settings>::uninit();
     assert_eq!(unsafe { pp_settings_default(settings.as_mut_ptr()) }, PP_OK);
-    let settings = pp_settings { carry_tolerance: 1e-9, ..unsafe { settings.assume_init() } };
+    let settings = unsafe { settings.assume_init() }.with_carry_tolerance(1e-9);
     for step in 0..3 {
         let poses = [pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93 - 1e-7 * f64::from(step))];
         let (mut contact, mut status) = (MaybeUninit::<pp_contact>::uninit(), MaybeUninit::<pp_status>::uninit());

@@ -26,7 +26,8 @@ fn source(file: &str) -> String {
 }
 
 /// The structs of the library that C has as they are: file, struct, dimension, name in C.
-const STRUCTS: [(&str, &str, &str, &str); 9] = [
+const STRUCTS: [(&str, &str, &str, &str); 10] = [
+    ("src/settings.rs", "Settings", "3", "pp_settings"),
     ("src/contact/contact.rs", "Contact", "3", "pp_contact"),
     ("src/contact/closest_point.rs", "ClosestPoint", "3", "pp_closest"),
     ("src/boundary/contact.rs", "FlatContact", "3", "pp_flat_contact"),

@@ -1,6 +1,6 @@
 //! What a pointer that a function of C is given stands for: every kind is checked and converted here alone.
 
-use super::convert::{pose_in_plane, pose_in_space, settings_of};
+use super::convert::{pose_in_plane, pose_in_space};
 use super::equilibrium::{pp_rigid_body, pp_rigid_contact};
 use super::particle::pp_particle;
 use super::planar::{pp_particle_2d, pp_pose_2d};
@@ -64,11 +64,19 @@ objects! {
 }
 
 /// The defaults for NULL; ranges are checked by whoever uses the settings.
-impl Argument<Settings> for *const pp_settings {
+impl<'a> Argument<&'a Settings> for *const pp_settings {
     #[inline(always)]
-    unsafe fn take(self) -> Result<Settings, pp_status> {
-        // SAFETY: as promised.
-        settings_of(unsafe { self.as_ref() })
+    unsafe fn take(self) -> Result<&'a Settings, pp_status> {
+        if self.is_null() {
+            return Ok(&Settings::DEFAULT);
+        }
+        // SAFETY: its first four fields are words; they are looked at before they count as enums.
+        match *unsafe { borrow(self.cast::<[u32; 4]>()) }? {
+            [PP_MIDWAY | PP_CLOSEST, PP_FAST | PP_CONE_PROGRAM, 0 | 1, 0] => unsafe { borrow(self) },
+            [PP_MIDWAY | PP_CLOSEST, PP_FAST | PP_CONE_PROGRAM, ..] => Err(PP_BAD_SETTING),
+            [PP_MIDWAY | PP_CLOSEST, ..] => Err(PP_UNKNOWN_BACK_END),
+            _ => Err(PP_UNKNOWN_FORMULATION),
+        }
     }
 }
 

@@ -94,7 +94,7 @@ where
             let mut states = states.iter_mut();
             for ((&[i, j], out), status) in pairs.iter().zip(contacts).zip(statuses) {
                 let state = states.next().map(state_of);
-                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, state, out)));
+                status.write(fenced(|| contact(find(i)?, find(j)?, settings, state, out)));
             }
         });
         Ok(())

@@ -1,6 +1,6 @@
 //! The contact of one pair, its area, and one closest point alone.
 
-use super::convert::{area_tolerance, detect_status, role_from, settings_to};
+use super::convert::{area_tolerance, detect_status, role_from};
 use super::fence::{call, give};
 use super::particle::pp_particle;
 use super::status::*;
@@ -16,7 +16,7 @@ use std::mem::MaybeUninit;
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_settings_default(settings: *mut pp_settings) -> pp_status {
-    give!(settings, [], Ok(settings_to(&Settings::default())))
+    give!(settings, [], Ok(Settings::DEFAULT))
 }
 
 /// Finds the contact of particle A at pose_a with particle B at pose_b.
@@ -40,7 +40,7 @@ pub unsafe extern "C" fn pp_contact_detect(
     out: *mut pp_contact,
 ) -> pp_status {
     // One body after the other, as of a batch.
-    call!([a, pose_a, b, pose_b, out, settings, state], contact((a, &pose_a), (b, &pose_b), &settings, state, out))
+    call!([a, pose_a, b, pose_b, out, settings, state], contact((a, &pose_a), (b, &pose_b), settings, state, out))
 }
 
 /// Finds one contact and writes it.
@@ -74,7 +74,7 @@ pub unsafe extern "C" fn pp_closest_point(
     out: *mut pp_closest,
 ) -> pp_status {
     give!(out, [a, pose_a, b, pose_b, settings], {
-        let found = closest_point(a, &pose_a, b, &pose_b, role_from(on)?, &settings).map_err(detect_status)?;
+        let found = closest_point(a, &pose_a, b, &pose_b, role_from(on)?, settings).map_err(detect_status)?;
         Ok(found.unwrap_or(ClosestPoint::UNKNOWN))
     })
 }

@@ -3,9 +3,7 @@
 use super::planar::pp_pose_2d;
 use super::status::*;
 use super::types::*;
-use crate::{
-    BackEnd, DetectError, Formulation, MassProperties, Plane, Pose, PoseError, Role, Settings, SettingsError, planar,
-};
+use crate::{DetectError, MassProperties, Plane, Pose, PoseError, Role, SettingsError, planar};
 use nalgebra::SVector;
 
 /// Rows of a, b, c, d.
@@ -39,48 +37,6 @@ impl From<&MassProperties> for pp_mass_properties {
 /// A point or direction.
 pub(super) fn finite<const N: usize>(v: &[f64; N]) -> Result<SVector<f64, N>, pp_status> {
     if v.iter().all(|c| c.is_finite()) { Ok(SVector::from(*v)) } else { Err(PP_BAD_POINT) }
-}
-
-pub(super) fn settings_to(settings: &Settings) -> pp_settings {
-    pp_settings {
-        formulation: settings.formulation as u32,
-        back_end: settings.back_end as u32,
-        solve_separated: settings.solve_separated.into(),
-        reserved: 0,
-        gap_tolerance: settings.gap_tolerance,
-        weight_on_a: settings.weight_on_a,
-        flat_regularisation: settings.flat_regularisation,
-        carry_tolerance: settings.carry_tolerance,
-    }
-}
-
-/// The defaults for `None`; ranges are checked by whoever uses the settings.
-///
-/// Always inlined: given back through memory byte by byte and read again as words, they cost a cheap rejection a tenth
-/// of its time.
-#[inline(always)]
-pub(super) fn settings_of(settings: Option<&pp_settings>) -> Result<Settings, pp_status> {
-    let Some(settings) = settings else { return Ok(Settings::default()) };
-    if settings.solve_separated > 1 || settings.reserved != 0 {
-        return Err(PP_BAD_SETTING);
-    }
-    Ok(Settings {
-        formulation: match settings.formulation {
-            PP_MIDWAY => Formulation::Midway,
-            PP_CLOSEST => Formulation::Closest,
-            _ => return Err(PP_UNKNOWN_FORMULATION),
-        },
-        back_end: match settings.back_end {
-            PP_FAST => BackEnd::Fast,
-            PP_CONE_PROGRAM => BackEnd::ConeProgram,
-            _ => return Err(PP_UNKNOWN_BACK_END),
-        },
-        solve_separated: settings.solve_separated == 1,
-        gap_tolerance: settings.gap_tolerance,
-        weight_on_a: settings.weight_on_a,
-        flat_regularisation: settings.flat_regularisation,
-        carry_tolerance: settings.carry_tolerance,
-    })
 }
 
 /// The relative tolerance of an area.

@@ -75,7 +75,7 @@ pub unsafe extern "C" fn pp_contact_derivatives(
     out: *mut pp_derivatives,
 ) -> pp_status {
     give!(out, [a, pose_a, b, pose_b, settings, contact], {
-        contact_derivatives(a, &pose_a, b, &pose_b, contact, &settings).map(derivatives_to).map_err(status_of)
+        contact_derivatives(a, &pose_a, b, &pose_b, contact, settings).map(derivatives_to).map_err(status_of)
     })
 }
 
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn pp_contact_gradient(
         // SAFETY: as the caller has promised.
         let mut shapes = [unsafe { Shape::of(shape_a, a) }?, unsafe { Shape::of(shape_b, b) }?];
         let [of_a, of_b] = shapes.each_mut().map(Shape::sum);
-        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, &settings, weights, of_a, of_b);
+        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, settings, weights, of_a, of_b);
         added(found, shapes)
     })
 }
@@ -129,7 +129,7 @@ pub unsafe extern "C" fn pp_flat_contact_derivatives(
     give!(out, [a, pose_a, settings, contact], {
         // SAFETY: as the caller has promised.
         let triangle = unsafe { boundary_from(vertices) }?;
-        boundary_derivatives(a, &pose_a, triangle.as_ref(), contact, &settings).map(derivatives_to).map_err(status_of)
+        boundary_derivatives(a, &pose_a, triangle.as_ref(), contact, settings).map(derivatives_to).map_err(status_of)
     })
 }
 
@@ -157,7 +157,7 @@ pub unsafe extern "C" fn pp_flat_contact_gradient(
         let triangle = unsafe { boundary_from(vertices) }?;
         let mut gradient = unsafe { Shape::of(shape, a) }?;
         let sum = Shape::sum(&mut gradient);
-        let found = boundary_gradient(a, &pose_a, triangle.as_ref(), contact, &settings, weights, sum);
+        let found = boundary_gradient(a, &pose_a, triangle.as_ref(), contact, settings, weights, sum);
         added(found, [gradient])
     })
 }

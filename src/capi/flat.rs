@@ -43,7 +43,7 @@ pub unsafe extern "C" fn pp_contact_plane(
 ) -> pp_status {
     give!(out, [a, pose_a, point, normal, settings, state], {
         let wall = Wall::new(*point, *normal).map_err(boundary_status)?;
-        contact_with_plane(a, &pose_a, &wall, &settings, state).map_err(detect_status)
+        contact_with_plane(a, &pose_a, &wall, settings, state).map_err(detect_status)
     })
 }
 
@@ -68,7 +68,7 @@ pub unsafe extern "C" fn pp_contact_triangle(
     out: *mut pp_flat_contact,
 ) -> pp_status {
     give!(out, [a, pose_a, vertices, settings, state], {
-        contact_with_triangle(a, &pose_a, &triangle_of(vertices)?, &settings, state).map_err(detect_status)
+        contact_with_triangle(a, &pose_a, &triangle_of(vertices)?, settings, state).map_err(detect_status)
     })
 }
 
@@ -103,7 +103,7 @@ pub unsafe extern "C" fn pp_seam_slope(
         settings.validate().map_err(settings_status)?;
         let feature = Feature::from_number(feature).filter(|feature| *feature != Feature::Interior);
         let feature = feature.filter(|_| (0.0..=1.0).contains(&place)).ok_or(PP_BAD_POINT)?;
-        let onwards = onwards_from_seam(a, &pose_a, &own, feature, &other, &settings, &mut place);
+        let onwards = onwards_from_seam(a, &pose_a, &own, feature, &other, settings, &mut place);
         let sense = match onwards {
             Onwards::Falls => -1,
             Onwards::Rises => 1,

@@ -32,37 +32,6 @@ pub struct pp_pose {
     pub orientation: [f64; 4],
 }
 
-/// How to solve. Fill with pp_settings_default, then change what you need; a NULL pointer in
-/// place of a pp_settings means the defaults.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_settings {
-    /// PP_MIDWAY (default) or PP_CLOSEST.
-    pub formulation: u32,
-    /// PP_FAST (default) or PP_CONE_PROGRAM.
-    pub back_end: u32,
-    /// 0 (default): a separated pair may be answered by a proof of separation alone
-    /// (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
-    pub solve_separated: u32,
-    /// Must be 0.
-    pub reserved: u32,
-    /// Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
-    pub gap_tolerance: f64,
-    /// Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
-    /// in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
-    pub weight_on_a: f64,
-    /// Where k is below this, the contact point on a flat face is chosen as if k were this value; shape, s
-    /// and overlap stay those of the given k. In [0, 0.1], default 1e-13; smaller values count as 1e-13.
-    /// Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides whether
-    /// particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
-    pub flat_regularisation: f64,
-    /// 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    /// pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
-    /// smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
-    /// PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
-    pub carry_tolerance: f64,
-}
-
 /// What one ordered pair (A, B), or a particle A and a flat boundary, keeps from call to call.
 ///
 /// Owned by the caller: set all bytes to 0 to begin with or to forget; copy it freely within a process. One
@@ -79,6 +48,8 @@ pub struct pp_pair_state {
 }
 
 /// The structs of the library itself, of which tests/header.rs writes those of the header.
+/// cbindgen:ignore
+pub type pp_settings = crate::Settings;
 /// cbindgen:ignore
 pub type pp_contact = crate::Contact;
 /// cbindgen:ignore

@@ -28,7 +28,7 @@ pub unsafe extern "C" fn pp_contact_detect_2d(
     out: *mut pp_contact_2d,
 ) -> pp_status {
     // One body after the other, as of a batch.
-    call!([a, pose_a, b, pose_b, out, settings, state], contact((a, &pose_a), (b, &pose_b), &settings, state, out))
+    call!([a, pose_a, b, pose_b, out, settings, state], contact((a, &pose_a), (b, &pose_b), settings, state, out))
 }
 
 /// Finds one contact and writes it.
@@ -88,7 +88,7 @@ pub unsafe extern "C" fn pp_closest_point_2d(
     out: *mut pp_closest_2d,
 ) -> pp_status {
     give!(out, [a, pose_a, b, pose_b, settings], {
-        let found = closest_point(a, &pose_a, b, &pose_b, role_from(on)?, &settings).map_err(detect_status)?;
+        let found = closest_point(a, &pose_a, b, &pose_b, role_from(on)?, settings).map_err(detect_status)?;
         Ok(found.unwrap_or(ClosestPoint::UNKNOWN))
     })
 }
