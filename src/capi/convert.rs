@@ -3,7 +3,7 @@
 use super::planar::pp_pose_2d;
 use super::status::*;
 use super::types::*;
-use crate::{DetectError, MassProperties, Plane, Pose, PoseError, Role, SettingsError, planar};
+use crate::{DetectError, MassProperties, Plane, Pose, PoseError, Role, Section, SettingsError, planar};
 use nalgebra::SVector;
 
 /// Rows of a, b, c, d.
@@ -41,7 +41,7 @@ pub(super) fn finite<const N: usize>(v: &[f64; N]) -> Result<SVector<f64, N>, pp
 
 /// The relative tolerance of an area.
 pub(super) fn area_tolerance(tolerance: f64) -> Result<f64, pp_status> {
-    if (1e-12..=0.1).contains(&tolerance) { Ok(tolerance) } else { Err(PP_BAD_SETTING) }
+    if Section::TOLERANCES.contains(&tolerance) { Ok(tolerance) } else { Err(PP_BAD_SETTING) }
 }
 
 /// Which particle the closest point is asked on.

@@ -11,7 +11,8 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::pp_mass_properties;
 use crate::Plane;
-use crate::particle::mass_properties::{LEAST_TOLERANCE, MassProperties};
+use crate::particle::error::ToleranceError;
+use crate::particle::mass_properties::MassProperties;
 use crate::shapes::{self, Rounding, Shape, SharpBody};
 use nalgebra::Matrix3;
 use std::ffi::c_char;
@@ -231,9 +232,7 @@ pub unsafe extern "C" fn pp_particle_from_polyhedron(
     message_size: usize,
 ) -> pp_status {
     explain!(message[message_size], "out", (New(out), IfWanted(built)), [polyhedron], {
-        if !(LEAST_TOLERANCE..=1.0).contains(&tolerance) {
-            return Err(PP_BAD_SETTING.into());
-        }
+        ToleranceError::refuse_relative(tolerance)?;
         let rounding = Rounding::of_radius(r, k);
         let rounding = if shadow_radius == 0.0 { rounding } else { rounding.with_shadow_radius(shadow_radius) };
         Ok(built_from(Shape::of_body(polyhedron, &rounding, tolerance)?))
@@ -274,4 +273,10 @@ pub unsafe extern "C" fn pp_principal_axes(inertia: *const f64, orientation: *mu
         let [[xx, yy, zz, xy, yz, zx]] = finite(inertia)?.data.0;
         Ok(shapes::principal_orientation(&Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)).1)
     })
+}
+
+impl Refusal for ToleranceError {
+    fn status(&self) -> pp_status {
+        PP_BAD_SETTING
+    }
 }
