@@ -141,20 +141,6 @@
 
 #define PP_STRUCT_EQUILIBRIUM_RESULT 37
 
-// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
-// inactive; the derivative of s is the same either way.
-#define PP_DERIVATIVE_SWITCHING 1
-
-// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
-// derivatives may be as large as 1/flat_regularisation.
-#define PP_DERIVATIVE_FREE 2
-
-// The contact is separated: overlap and surface points have no derivatives, and are NaN.
-#define PP_DERIVATIVE_SEPARATED 4
-
-// Fewer than four digits may be right: depths of planes are of the size of their rounding.
-#define PP_DERIVATIVE_IMPRECISE 8
-
 // Question of pp_equilibrium: do forces exist that hold all bodies?
 #define PP_STANDS 0
 
@@ -201,26 +187,6 @@
 // Size of a message buffer that holds every message whole.
 #define PP_MESSAGE_SIZE 512
 
-// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
-// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
-// which the estimated error does not tell: the far side of a rod that goes through the other body.
-#define PP_PATCH_FOLDED 1
-
-// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
-// how far off the answer may be.
-#define PP_PATCH_TOLERANCE_NOT_REACHED 2
-
-// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
-// nearly): the patch is that of slightly rounder bodies.
-#define PP_PATCH_DEEP 4
-
-// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
-#define PP_PATCH_EMPTY 8
-
-// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
-// are those of that pose.
-#define PP_PATCH_CARRIED 16
-
 // A side of the domain.
 #define PP_FACE_OF_DOMAIN 0
 
@@ -248,6 +214,12 @@
 
 // The two particles overlap: s < 1.
 #define PP_OVERLAPPING 2
+
+// pp_closest_point: the point P1 on A, where s_B is least.
+#define PP_ON_A 0
+
+// pp_closest_point: the point P2 on B, where s_A is least.
+#define PP_ON_B 1
 
 // "closest" was asked for and has no answer: the centre (for k = 0, the core) of one particle lies inside
 // the other, or may do so within rounding, and |P1 - P2| is no overlap then. All fields are those of midway.
@@ -296,11 +268,42 @@
 // midway's overlap is.
 #define PP_FLAG_FREE 4096
 
-// pp_closest_point: the point P1 on A, where s_B is least.
-#define PP_ON_A 0
+// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
+// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
+// which the estimated error does not tell: the far side of a rod that goes through the other body.
+#define PP_PATCH_FOLDED 1
 
-// pp_closest_point: the point P2 on B, where s_A is least.
-#define PP_ON_B 1
+// The tolerance was not reached with the most rays (1500, or two million planes looked at), or is beyond what
+// rounding allows where the bodies hardly touch (overlaps of 1e-11 of their size at 1e-4); error tells how far
+// off the answer may be.
+#define PP_PATCH_TOLERANCE_NOT_REACHED 2
+
+// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
+// nearly): the patch is that of slightly rounder bodies.
+#define PP_PATCH_DEEP 4
+
+// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
+#define PP_PATCH_EMPTY 8
+
+// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): it has no points,
+// and area and moments are those of that pose.
+#define PP_PATCH_CARRIED 16
+
+// Whether a plane is active at the contact point, or at a surface point, is uncertain within the bound on that
+// point. The derivatives are those with the plane inactive; the derivative of s is the same either way.
+#define PP_DERIVATIVE_SWITCHING 1
+
+// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
+// derivatives may be as large as 1/flat_regularisation, and hold for motions of about its size only. Raise it
+// for derivatives of practical use.
+#define PP_DERIVATIVE_FREE 2
+
+// The contact is separated: overlap and surface points have no derivatives, and are NaN.
+#define PP_DERIVATIVE_SEPARATED 4
+
+// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a
+// boundary, by bodies whose r is 1e-11 of their size), or planes switch even in 32 digits.
+#define PP_DERIVATIVE_IMPRECISE 8
 
 // A validated particle. Created by pp_particle_new, released by pp_particle_free; immutable,
 // so that bodies and threads may share one.
@@ -328,7 +331,7 @@ typedef struct pp_pose {
     double orientation[4];
 } pp_pose;
 
-// How to solve. Fill with pp_settings_default, then change what you need; a NULL pointer in
+// How to solve. Fill with the defaults (pp_settings_default), then change what you need; a NULL pointer in
 // place of a pp_settings means the defaults.
 typedef struct pp_settings {
     // PP_MIDWAY (default) or PP_CLOSEST.
@@ -340,20 +343,25 @@ typedef struct pp_settings {
     uint32_t solve_separated;
     // Must be 0.
     uint32_t reserved;
-    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
+    // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12, a decade above what
+    // rounding leaves for well-conditioned pairs. Where rounding leaves more, the answer has
+    // PP_FLAG_ROUNDING_LIMITED. Below 1e-13 the solver goes on in extended precision (some 10 us) until the gap
+    // is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
     double gap_tolerance;
-    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
-    // in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
+    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2, in [0, 1], default
+    // 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     double weight_on_a;
-    // Where k is below this, the contact point on a flat face is chosen as if k were this value; shape, s
-    // and overlap stay those of the given k. In [0, 0.1], default 1e-13; smaller values count as 1e-13.
-    // Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides whether
-    // particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
+    // Where k is below this, the contact point on a flat face is chosen as if k were this value (about a sphere
+    // of the bounding radius); shape, s and overlap stay those of the given k within the gap, which grows by at
+    // most this value. In [0, 0.1], default 1e-13, the smallest whose pull on a flat face of unit size exceeds
+    // rounding; smaller values count as 1e-13. For exactly parallel faces any value gives the point nearest to
+    // the centres. Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides
+    // whether particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
     // 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    // pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
-    // smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
-    // PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
+    // pair and not solved (PP_FLAG_CARRIED), where no plane can have switched and its point is known to this
+    // share of the smaller bounding radius; a separated pair, as long as s is surely above 1. In [0, 0.1]; 1e-9
+    // is a good choice. Needs a pp_pair_state; contacts of PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     double carry_tolerance;
 } pp_settings;
 
@@ -1616,6 +1624,21 @@ pp_status pp_patch_derivatives_on_boundary(const struct pp_particle *a,
                                            double tolerance,
                                            struct pp_patch_derivatives *out);
 
+// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
+//
+// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
+// for frames, units and signs.
+// Pointers: state and out are not used by another call at the same time.
+// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
+// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
+pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
+                               const struct pp_pose_2d *pose_a,
+                               const struct pp_particle_2d *b,
+                               const struct pp_pose_2d *pose_b,
+                               const struct pp_settings *settings,
+                               struct pp_pair_state *state,
+                               struct pp_contact_2d *out);
+
 // Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
 // where every argument, status and error is explained.
 //
@@ -1633,21 +1656,6 @@ pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particl
                                      struct pp_pair_state *states,
                                      struct pp_contact_2d *contacts,
                                      pp_status *statuses);
-
-// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
-//
-// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
-// for frames, units and signs.
-// Pointers: state and out are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
-// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
-pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
-                               const struct pp_pose_2d *pose_a,
-                               const struct pp_particle_2d *b,
-                               const struct pp_pose_2d *pose_b,
-                               const struct pp_settings *settings,
-                               struct pp_pair_state *state,
-                               struct pp_contact_2d *out);
 
 // The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
 // (paper eqs 3, 9). As pp_closest_point.

@@ -48,37 +48,41 @@ pub struct Flags(u32);
 impl Flags {
     pub(crate) const NONE: Self = Self(0);
 
-    /// A centre lies inside the other particle, or may: the constraint of closest is slack, the geometry midway's.
+    /// "closest" was asked for and has no answer: the centre (for k = 0, the core) of one particle lies inside
+    /// the other, or may do so within rounding, and |P1 - P2| is no overlap then. All fields are those of midway.
     pub const SLACK: Self = Self(1);
-    /// Separation was proved without solving to the end; s is a lower bound.
+    /// Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
+    /// distance is set.
     pub const REJECTED: Self = Self(2);
-    /// Both gradients vanish: the normal is the line of centres.
+    /// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
+    /// the one given is the line of centres, or the x axis of B.
     pub const NORMAL_BY_CENTRES: Self = Self(4);
-    /// Started from memory.
+    /// Started from the solution that the pair remembers (struct pp_pair_state).
     pub const WARM: Self = Self(8);
-    /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap that was asked
-    /// for.
+    /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
     pub const EXTENDED: Self = Self(16);
-    /// Carried on without a solution from its planes ([`crate::Settings::carry_tolerance`]): from the last contact, or,
-    /// with [`Self::REJECTED`], from where the pair was last solved apart.
+    /// Carried on from the last contact, without a solution from the planes (carry_tolerance); with
+    /// PP_FLAG_REJECTED from where the pair was last solved apart.
     pub const CARRIED: Self = Self(32);
-    /// The gap exceeds the tolerance, because rounding allows no better.
+    /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
     pub const ROUNDING_LIMITED: Self = Self(64);
 
-    /// Rejected: two balls that hold the particles do not meet.
+    /// Rejected by balls: two that hold the particles do not meet.
     pub const BY_SPHERES: Self = Self(128);
-    /// Rejected: one particle lies beyond a face of the other.
+    /// Rejected by a face: one particle lies beyond a face of the other.
     pub const BY_FACE: Self = Self(256);
-    /// Rejected: what separated the pair at the last call still does.
+    /// Rejected from memory: what separated the pair at the last call still does.
     pub const BY_MEMORY: Self = Self(512);
-    /// [`crate::Settings::flat_regularisation`] was raised, and its default value was used in this call instead: the
-    /// raised one would have left open whether the particles overlap.
+    /// flat_regularisation was raised, and its default value was used in this call instead: the raised one
+    /// would have left open whether the particles overlap.
     pub const DEFAULT_REGULARISATION: Self = Self(1024);
-    /// The gradient vanishes on a flat boundary, as when the centre lies on it: the normal is the boundary's own.
+    /// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
+    /// boundary's own.
     pub const NORMAL_BY_BOUNDARY: Self = Self(2048);
 
-    /// Closest: both points are free to move along flat faces (k = 0), so that the overlap |P1 − P2| has a part along
-    /// these, up to what the faces have in common. It is the answer by definition, yet no depth: midway's overlap is.
+    /// Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
+    /// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
+    /// midway's overlap is.
     pub const FREE: Self = Self(4096);
 
     /// Every flag with its name, in the order of the bits.

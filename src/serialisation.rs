@@ -95,23 +95,14 @@ impl Default for SettingsTwin {
 
 impl From<&Settings> for SettingsTwin {
     fn from(settings: &Settings) -> Self {
-        let &Settings {
-            formulation,
-            back_end,
-            solve_separated,
-            gap_tolerance,
-            weight_on_a,
-            flat_regularisation,
-            carry_tolerance,
-        } = settings;
         Self {
-            formulation,
-            back_end,
-            solve_separated,
-            gap_tolerance,
-            weight_on_a,
-            flat_regularisation,
-            carry_tolerance,
+            formulation: settings.formulation,
+            back_end: settings.back_end,
+            solve_separated: settings.solve_separated(),
+            gap_tolerance: settings.gap_tolerance,
+            weight_on_a: settings.weight_on_a,
+            flat_regularisation: settings.flat_regularisation,
+            carry_tolerance: settings.carry_tolerance,
         }
     }
 }
@@ -120,7 +111,8 @@ through!(Settings, SettingsTwin, |settings| settings.into(), |twin| {
     let settings = Settings {
         formulation: twin.formulation,
         back_end: twin.back_end,
-        solve_separated: twin.solve_separated,
+        solve_separated: twin.solve_separated.into(),
+        reserved: 0,
         gap_tolerance: twin.gap_tolerance,
         weight_on_a: twin.weight_on_a,
         flat_regularisation: twin.flat_regularisation,

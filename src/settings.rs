@@ -53,51 +53,40 @@ impl fmt::Display for BackEnd {
     }
 }
 
-/// How to solve a contact.
-///
-/// Settings begin with the defaults, so that a field added later changes nothing:
-///
-/// ```
-/// use potential_particles::{Formulation, Settings};
-/// let settings = Settings::default().with_formulation(Formulation::Closest).with_weight_on_a(0.3);
-/// assert!(settings.validate().is_ok());
-/// assert!(settings.with_weight_on_a(1.3).validate().is_err());
-/// ```
+/// How to solve. Fill with the defaults (pp_settings_default), then change what you need; a NULL pointer in
+/// place of a pp_settings means the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
+#[repr(C)]
 pub struct Settings {
-    /// Which problem.
+    /// PP_MIDWAY (default) or PP_CLOSEST.
     pub formulation: Formulation,
-    /// Which solver.
+    /// PP_FAST (default) or PP_CONE_PROGRAM.
     pub back_end: BackEnd,
-    /// Solve separated pairs to the end as well, instead of stopping at a proof of separation.
-    pub solve_separated: bool,
-    /// Relative gap of s² at which the solver may stop, in (0, 0.1].
-    ///
-    /// 1e-12 lies a decade above what rounding leaves for well-conditioned pairs; the solver is a Newton method, so
-    /// that its last step usually lands far below it anyway. Where rounding of doubles leaves more, the answer is
-    /// flagged [`crate::Flags::ROUNDING_LIMITED`]. Below 1e-13 the solver goes on in extended precision (some 10 µs)
-    /// until the gap is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
+    /// 0 (default): a separated pair may be answered by a proof of separation alone
+    /// (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
+    pub(crate) solve_separated: u32,
+    /// Must be 0.
+    pub(crate) reserved: u32,
+    /// Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12, a decade above what
+    /// rounding leaves for well-conditioned pairs. Where rounding leaves more, the answer has
+    /// PP_FLAG_ROUNDING_LIMITED. Below 1e-13 the solver goes on in extended precision (some 10 us) until the gap
+    /// is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
     pub gap_tolerance: f64,
-    /// Weight of the point on A in the contact point of [`Formulation::Closest`], in [0, 1].
+    /// Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2, in [0, 1], default
+    /// 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     pub weight_on_a: f64,
-    /// Sphericity below which the position on a flat face is regularised, in [0, 0.1]; less than the default of 1e-13
-    /// counts as that.
-    ///
-    /// With k below this value the minimiser is chosen as if k were this value (about a sphere of the bounding radius);
-    /// s, overlap and normal stay those of the given k within the gap, which grows by at most this value. 1e-13 is the
-    /// smallest value whose pull on a flat face of unit size still exceeds rounding; for exactly parallel faces any
-    /// value gives the limit k → 0⁺, the point nearest to the centres. Where the choice would leave open whether the
-    /// particles overlap at all, the default value decides, and its contact is the answer
-    /// ([`crate::Flags::DEFAULT_REGULARISATION`]).
+    /// Where k is below this, the contact point on a flat face is chosen as if k were this value (about a sphere
+    /// of the bounding radius); shape, s and overlap stay those of the given k within the gap, which grows by at
+    /// most this value. In [0, 0.1], default 1e-13, the smallest whose pull on a flat face of unit size exceeds
+    /// rounding; smaller values count as 1e-13. For exactly parallel faces any value gives the point nearest to
+    /// the centres. Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides
+    /// whether particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
     pub flat_regularisation: f64,
-    /// A contact is carried on only where its point is known to this part of the smaller bounding radius, in [0, 0.1];
-    /// 0: every contact is solved.
-    ///
-    /// Above 0 (1e-9, say) and with a [`crate::PairState`], a contact of [`Formulation::Midway`] by [`BackEnd::Fast`]
-    /// follows from the last one without a solution from its planes ([`crate::Flags::CARRIED`]) where no plane can have
-    /// switched and its point is known so well. A pair that is apart is carried on in the same way, as long as s is
-    /// surely above 1. Its gap and `point_bound` hold as for any other.
+    /// 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
+    /// pair and not solved (PP_FLAG_CARRIED), where no plane can have switched and its point is known to this
+    /// share of the smaller bounding radius; a separated pair, as long as s is surely above 1. In [0, 0.1]; 1e-9
+    /// is a good choice. Needs a pp_pair_state; contacts of PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     pub carry_tolerance: f64,
 }
 
@@ -112,7 +101,8 @@ impl Settings {
     pub const DEFAULT: Self = Self {
         formulation: Formulation::Midway,
         back_end: BackEnd::Fast,
-        solve_separated: false,
+        solve_separated: 0,
+        reserved: 0,
         gap_tolerance: 1e-12,
         weight_on_a: 0.5,
         flat_regularisation: 1e-13,
@@ -167,7 +157,6 @@ macro_rules! with {
 with!(
     with_formulation formulation: Formulation,
     with_back_end back_end: BackEnd,
-    with_solve_separated solve_separated: bool,
     with_gap_tolerance gap_tolerance: f64,
     with_weight_on_a weight_on_a: f64,
     with_flat_regularisation flat_regularisation: f64,
@@ -175,6 +164,17 @@ with!(
 );
 
 impl Settings {
+    /// The same, where separated pairs are solved to the end as well, instead of stopping at a proof of separation.
+    #[must_use]
+    pub const fn with_solve_separated(self, solve_separated: bool) -> Self {
+        Self { solve_separated: solve_separated as u32, ..self }
+    }
+
+    /// Whether separated pairs are solved to the end as well.
+    pub const fn solve_separated(&self) -> bool {
+        self.solve_separated != 0
+    }
+
     /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the
     /// gap than is asked for. A raised one is a choice that stays.
     pub(crate) fn least_sphericity(&self) -> f64 {
@@ -204,6 +204,13 @@ impl Settings {
     }
 
     /// Checks every range, and that the back end was built in.
+    ///
+    /// ```
+    /// use potential_particles::{Formulation, Settings};
+    /// let settings = Settings::default().with_formulation(Formulation::Closest).with_weight_on_a(0.3);
+    /// assert!(settings.validate().is_ok());
+    /// assert!(settings.with_weight_on_a(1.3).validate().is_err());
+    /// ```
     ///
     /// # Errors
     /// The first setting outside its range.

@@ -37,7 +37,7 @@ fn so_it_is_in_c() {
         assert_eq!(pp_particle_new(ptr::null(), 0, 0.0, 1.0, 1.0, &mut ball, ptr::null_mut(), 0), PP_OK);
         let mut settings = MaybeUninit::uninit();
         assert_eq!(pp_settings_default(settings.as_mut_ptr()), PP_OK);
-        let settings = pp_settings { back_end: PP_CONE_PROGRAM, ..settings.assume_init() };
+        let settings = settings.assume_init().with_back_end(BackEnd::ConeProgram);
         let [left, right] = [0.0, 1.5].map(|x| pp_pose { position: [x, 0.0, 0.0], orientation: [1.0, 0.0, 0.0, 0.0] });
         let mut contact = MaybeUninit::uninit();
         let memory = ptr::null_mut();

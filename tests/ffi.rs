@@ -5,8 +5,8 @@
 //! (with MIRIFLAGS=-Zmiri-disable-isolation where the clock is wanted). Everything else about it: tests/c.
 #![allow(unsafe_code)]
 
-use potential_particles::Kind;
 use potential_particles::capi::*;
+use potential_particles::{Flags, Kind};
 use std::mem::MaybeUninit;
 use std::ptr;
 
@@ -179,7 +179,7 @@ fn a_batch_carries_contacts_on() {
     let mut state = EMPTY;
     let mut settings = MaybeUninit::<pp_settings>::uninit();
     assert_eq!(unsafe { pp_settings_default(settings.as_mut_ptr()) }, PP_OK);
-    let settings = pp_settings { carry_tolerance: 1e-9, ..unsafe { settings.assume_init() } };
+    let settings = unsafe { settings.assume_init() }.with_carry_tolerance(1e-9);
     for step in 0..3 {
         let poses = [pose(0.0, 0.0, 0.0), pose(0.2, 0.1, 0.93 - 1e-7 * f64::from(step))];
         let (mut contact, mut status) = (MaybeUninit::<pp_contact>::uninit(), MaybeUninit::<pp_status>::uninit());
@@ -198,7 +198,7 @@ fn a_batch_carries_contacts_on() {
             )
         };
         assert_eq!((called, unsafe { status.assume_init() }), (PP_OK, PP_OK));
-        assert_eq!(unsafe { contact.assume_init() }.flags.bits() & PP_FLAG_CARRIED != 0, step > 0);
+        assert_eq!(unsafe { contact.assume_init() }.flags.contains(Flags::CARRIED), step > 0);
     }
     unsafe { pp_particle_free(body) };
 }

@@ -1,5 +1,5 @@
-//! The committed C header is the one that cbindgen makes of `src/capi` and of the structs of the library, and it names
-//! this version.
+//! The committed C header is the one that cbindgen makes of `src/capi` and of the structs and flags of the library, and
+//! it names this version.
 
 use std::path::{Path, PathBuf};
 use std::{env, fs};
@@ -21,8 +21,13 @@ fn committed() -> String {
         .unwrap_or_else(|e| panic!("{}: {e}\nWrite it with\n    {REMEDY}", header_path().display()))
 }
 
+fn source(file: &str) -> String {
+    fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
+}
+
 /// The structs of the library that C has as they are: file, struct, dimension, name in C.
-const STRUCTS: [(&str, &str, &str, &str); 9] = [
+const STRUCTS: [(&str, &str, &str, &str); 10] = [
+    ("src/settings.rs", "Settings", "3", "pp_settings"),
     ("src/contact/contact.rs", "Contact", "3", "pp_contact"),
     ("src/contact/closest_point.rs", "ClosestPoint", "3", "pp_closest"),
     ("src/boundary/contact.rs", "FlatContact", "3", "pp_flat_contact"),
@@ -36,7 +41,7 @@ const STRUCTS: [(&str, &str, &str, &str); 9] = [
 
 /// A struct of the library, alone or of an `answer!`, as a plain struct under its name in C.
 fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> String {
-    let source = fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"));
+    let source = source(file);
     let is_doc = |line: &&str| line.starts_with("///");
     let lines: Vec<&str> = source.lines().map(str::trim_start).filter(|line| !line.starts_with("#[")).collect();
     let is_head = |line: &&str| {
@@ -66,10 +71,37 @@ fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> Strin
     ["SVector<f64, N>", "Vector2<f64>", "Vector3<f64>"].iter().fold(plain, |text, of| text.replace(of, &vector))
 }
 
-/// From `src/capi` and these structs alone: other public items of the crate are no part of the C interface.
+/// The flags of the library: file, type, and how their names begin in C.
+const FLAGS: [(&str, &str, &str); 3] = [
+    ("src/flags.rs", "Flags", "PP_FLAG_"),
+    ("src/patch/patch.rs", "PatchFlags", "PP_PATCH_"),
+    ("src/derivative/answer.rs", "DerivativeFlags", "PP_DERIVATIVE_"),
+];
+
+/// A set of flags as constants.
+fn flags_in_c((file, name, prefix): (&str, &str, &str)) -> String {
+    let source = source(file);
+    let lines = source.lines().skip_while(|line| *line != format!("impl {name} {{")).map(str::trim_start);
+    let (mut constants, mut comment) = (String::new(), String::new());
+    for line in lines.take_while(|line| !line.starts_with("const ")) {
+        if line.starts_with("///") {
+            comment += &format!("{line}\n");
+        } else if let Some((flag, bit)) =
+            line.strip_prefix("pub const ").and_then(|rest| rest.split_once(": Self = Self"))
+        {
+            constants += &format!("{comment}pub const {prefix}{flag}: u32 = {bit}\n");
+            comment.clear();
+        }
+    }
+    assert!(!constants.is_empty(), "{file} has no flags {name}");
+    constants
+}
+
+/// From `src/capi` and these structs and flags alone: other public items of the crate are no part of the C interface.
 fn generated() -> String {
     let structs = Path::new(env!("CARGO_TARGET_TMPDIR")).join(format!("structs_{:?}.rs", std::thread::current().id()));
-    fs::write(&structs, STRUCTS.map(struct_in_c).concat()).expect("the build folder is writable");
+    fs::write(&structs, FLAGS.map(flags_in_c).concat() + &STRUCTS.map(struct_in_c).concat())
+        .expect("the build folder is writable");
     let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml is readable");
     let sources = cbindgen::Builder::new().with_config(config).with_src(root().join("src/capi/mod.rs"));
     let mut text = Vec::new();

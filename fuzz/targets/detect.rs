@@ -18,7 +18,7 @@ pub fn run(data: &[u8]) {
     if choices & 1 != 0 {
         settings.formulation = Formulation::Closest;
     }
-    settings.solve_separated = choices & 2 != 0;
+    settings = settings.with_solve_separated(choices & 2 != 0);
     if choices & 4 != 0 {
         settings.gap_tolerance = bytes.number();
         settings.weight_on_a = bytes.number();
@@ -28,7 +28,7 @@ pub fn run(data: &[u8]) {
     // Where S is beyond all numbers, the cone program is asked at length, in vain: a few such pairs are enough.
     let reach = a.bounding_radius() + b.bounding_radius();
     if choices < 250 && !((at_a.position() - at_b.position()).norm() < 1e9 * reach) {
-        settings.solve_separated = false;
+        settings = settings.with_solve_separated(false);
     }
     let mut solution = [0.0; 8];
     for number in &mut solution {

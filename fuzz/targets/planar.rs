@@ -25,7 +25,7 @@ pub fn run(data: &[u8]) {
     if choices & 1 != 0 {
         settings.formulation = Formulation::Closest;
     }
-    settings.solve_separated = choices & 2 != 0;
+    settings = settings.with_solve_separated(choices & 2 != 0);
     if choices & 4 != 0 {
         settings.gap_tolerance = 10f64.powi(-i32::from(bytes.byte() % 17));
     }

@@ -251,7 +251,7 @@ fn contact_area(
     contact: &PyContact,
     tolerance: f64,
 ) -> PyResult<f64> {
-    if !(1e-12..=0.1).contains(&tolerance) {
+    if !Section::TOLERANCES.contains(&tolerance) {
         return Err(refused(format!("tolerance={tolerance:?} must lie in [1e-12, 0.1]")));
     }
     if contact.0.kind == Kind::Separated {

@@ -56,7 +56,7 @@ impl PySettings {
 
     #[getter]
     fn solve_separated(&self) -> bool {
-        self.0.solve_separated
+        self.0.solve_separated()
     }
 
     #[getter]
@@ -81,7 +81,7 @@ impl PySettings {
 
     fn __repr__(&self) -> String {
         let Settings { gap_tolerance, weight_on_a, flat_regularisation, carry_tolerance, .. } = self.0;
-        let solved = if self.0.solve_separated { "True" } else { "False" };
+        let solved = if self.0.solve_separated() { "True" } else { "False" };
         format!(
             "Settings({:?}, solve_separated={solved}, gap_tolerance={gap_tolerance:?}, weight_on_a={weight_on_a:?}, \
              flat_regularisation={flat_regularisation:?}, carry_tolerance={carry_tolerance:?})",
@@ -91,7 +91,7 @@ impl PySettings {
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((String,), Bound<'py, PyDict>)> {
         let keywords = PyDict::new(py);
-        keywords.set_item("solve_separated", self.0.solve_separated)?;
+        keywords.set_item("solve_separated", self.0.solve_separated())?;
         keywords.set_item("gap_tolerance", self.0.gap_tolerance)?;
         keywords.set_item("weight_on_a", self.0.weight_on_a)?;
         keywords.set_item("flat_regularisation", self.0.flat_regularisation)?;

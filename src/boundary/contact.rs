@@ -143,7 +143,7 @@ struct Call<'a> {
 impl Call<'_> {
     /// The answer if a test proves that the particle and a boundary given by these points are apart, and that will do.
     fn apart(&self, given: &[Vector3<f64>]) -> Option<FlatContact> {
-        let wanted = !self.settings.solve_separated;
+        let wanted = !self.settings.solve_separated();
         let proof = wanted.then(|| separation::proof_of_separation(self.particle, self.pose, &self.normal, given));
         proof.flatten().map(|proof| FlatContact::apart(&proof))
     }

@@ -1,13 +1,15 @@
 //! The contacts of a whole step in one call.
 
+use super::argument::{Argument, Element, state_of, take};
 use super::contact::contact;
-use super::convert::{pose_from, settings_from, settings_status, state_of};
-use super::fence::{array, array_mut, borrow, fenced, outputs};
+use super::convert::settings_status;
+use super::fence::{call, fenced};
+use super::output::outputs;
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::batch::{CHUNK, in_parallel, optional_chunks};
-use crate::{PairState, Particle, Pose, Settings};
+use crate::{PairState, Settings};
 use std::mem::MaybeUninit;
 
 /// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
@@ -44,59 +46,55 @@ pub unsafe extern "C" fn pp_contact_detect_batch(
     contacts: *mut pp_contact,
     statuses: *mut pp_status,
 ) -> pp_status {
-    let (bodies, pairs, outputs) = ((particles, poses, body_count), (pairs, pair_count), (contacts, statuses));
-    let one =
-        |a: &Body, b: &Body, settings: &Settings, state: Option<&mut PairState>, out: &mut MaybeUninit<pp_contact>| {
-            contact((a.0, &a.1), (b.0, &b.1), settings, state, out)
-        };
-    // SAFETY: as the caller promised.
-    unsafe { detect_batch(bodies, pairs, settings, threads, states, outputs, (body, one)) }
+    let bodies = (particles, poses, body_count);
+    // SAFETY: as the caller has promised.
+    unsafe { detect_batch(bodies, (pairs, pair_count), settings, threads, states, (contacts, statuses), contact) }
 }
 
-type Body<'a> = (&'a Particle, Pose);
-
-fn body<'a>(particle: &'a pp_particle, pose: &pp_pose) -> Result<Body<'a>, pp_status> {
-    Ok((&particle.0, pose_from(pose)?))
-}
-
-/// pp_contact_detect_batch of particles P at poses Q with contacts C: `body` makes a body of a particle and its pose,
-/// `contact` finds the contact of two and writes it.
+/// pp_contact_detect_batch of particles P, which are X, at poses Q, which are Y, with contacts C: `contact` finds the
+/// contact of two and writes it.
 ///
 /// # Safety
 /// Pointers and counts are as pp_contact_detect_batch asks for.
-pub(super) unsafe fn detect_batch<'a, P: 'a, Q: 'a, B: Sync, C: Send>(
+pub(super) unsafe fn detect_batch<'a, P: 'a, Q: Element + 'a, X: Sync + 'a, Y: Sync, C: Send>(
     (particles, poses, body_count): (*const *const P, *const Q, usize),
     (pairs, pair_count): (*const u32, usize),
     settings: *const pp_settings,
     threads: u32,
     states: *mut pp_pair_state,
     (contacts, statuses): (*mut C, *mut pp_status),
-    (body, contact): (
-        impl Fn(&'a P, &'a Q) -> Result<B, pp_status>,
-        impl Fn(&B, &B, &Settings, Option<&mut PairState>, &mut MaybeUninit<C>) -> Result<(), pp_status> + Sync,
-    ),
-) -> pp_status {
-    fenced(|| {
-        let (particles, poses) = unsafe { (array(particles, body_count)?, array(poses, body_count)?) };
-        let pairs = unsafe { array(pairs.cast::<[u32; 2]>(), pair_count) }?;
-        // SAFETY: exclusively ours for the call; NULL states are none.
-        let states = unsafe { array_mut(states, if states.is_null() { 0 } else { pair_count }) }?;
+    contact: impl Fn((&X, &Y), (&X, &Y), &Settings, Option<&mut PairState>, &mut MaybeUninit<C>) -> Result<(), pp_status>
+    + Sync,
+) -> pp_status
+where
+    *const P: Argument<&'a X>,
+    *const Q: Argument<Y>,
+{
+    let state_count = if states.is_null() { 0 } else { pair_count };
+    call!([particles[body_count], poses[body_count], pairs[pair_count], states[state_count], settings], {
+        // SAFETY: as the caller has promised.
         let (contacts, statuses) = unsafe { (outputs(contacts, pair_count)?, outputs(statuses, pair_count)?) };
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        settings.validate().map_err(|error| settings_status(&error))?;
+        settings.validate().map_err(settings_status)?;
 
-        // SAFETY: each is NULL or a particle.
-        let bodies = particles.iter().zip(poses).map(|(&particle, pose)| body(unsafe { borrow(particle) }?, pose));
-        let bodies: Vec<Result<B, pp_status>> = bodies.collect();
-        let find = |index: u32| bodies.get(index as usize).ok_or(PP_BAD_INDEX)?.as_ref().map_err(|&status| status);
+        let body = |(&particle, pose): (&*const P, &Q)| -> Result<(&X, Y), pp_status> {
+            let pose = std::ptr::from_ref(pose);
+            Ok((take!(particle)?, take!(pose)?))
+        };
+        let bodies: Vec<_> = particles.iter().zip(poses).map(body).collect();
+        let find = |index: u32| match bodies.get(index as usize) {
+            Some(Ok((particle, pose))) => Ok((*particle, pose)),
+            Some(Err(status)) => Err(*status),
+            None => Err(PP_BAD_INDEX),
+        };
 
         let outputs = contacts.chunks_mut(CHUNK).zip(statuses.chunks_mut(CHUNK));
+        let pairs: &[[u32; 2]] = pairs;
         let chunks = pairs.chunks(CHUNK).zip(optional_chunks(states)).zip(outputs);
         in_parallel(threads as usize, pair_count.div_ceil(CHUNK), chunks, |((pairs, states), (contacts, statuses))| {
             let mut states = states.iter_mut();
             for ((&[i, j], out), status) in pairs.iter().zip(contacts).zip(statuses) {
                 let state = states.next().map(state_of);
-                status.write(fenced(|| contact(find(i)?, find(j)?, &settings, state, out)));
+                status.write(fenced(|| contact(find(i)?, find(j)?, settings, state, out)));
             }
         });
         Ok(())

@@ -1,8 +1,8 @@
 //! Builders of particles over the C boundary: from half-spaces or points to a particle about its centroid.
 
-use super::convert::planes_from;
-use super::fence::{array, output};
-use super::message::{Refusal, create};
+use super::convert::planes_of;
+use super::message::{Refusal, explain};
+use super::output::{IfWanted, New};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::pp_mass_properties;
@@ -50,13 +50,9 @@ pub unsafe extern "C" fn pp_particle_from_faces(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        // SAFETY: the caller promised 4*count doubles.
-        let planes = unsafe { planes_from(planes, count) }?;
-        Ok(shapes::half_spaces(&planes, &shares(rounding, k, shadow)))
-    };
-    // SAFETY: out, built and message are the caller's, as promised.
-    unsafe { create_shape(make, "planes and out must not be NULL", out, built, message, message_size) }
+    explain!(message[message_size], "out", (New(out), IfWanted(built)), [planes[count]], {
+        Ok(built_from(shapes::half_spaces(&planes_of(planes), &shares(rounding, k, shadow))?))
+    })
 }
 
 /// Builds a particle from the convex hull of points, about its centroid and along its principal axes.
@@ -80,13 +76,9 @@ pub unsafe extern "C" fn pp_particle_from_points(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        // SAFETY: the caller promised 3*count doubles.
-        let points = unsafe { array(points.cast::<[f64; 3]>(), count) }?;
-        Ok(shapes::hull(points, &shares(rounding, k, shadow)))
-    };
-    // SAFETY: out, built and message are the caller's, as promised.
-    unsafe { create_shape(make, "points and out must not be NULL", out, built, message, message_size) }
+    explain!(message[message_size], "out", (New(out), IfWanted(built)), [points[count]], {
+        Ok(built_from(shapes::hull(points, &shares(rounding, k, shadow))?))
+    })
 }
 
 fn shares(rounding: f64, k: f64, shadow: f64) -> Rounding {
@@ -94,28 +86,10 @@ fn shares(rounding: f64, k: f64, shadow: f64) -> Rounding {
     if shadow == 0.0 { rounding } else { rounding.with_shadow_share(shadow) }
 }
 
-/// [`create`] of the particle of a shape, with how that stands.
-/// Pointers: out and built are NULL or valid for writing, message is NULL or valid for writing size bytes.
-pub(super) unsafe fn create_shape(
-    make: impl FnOnce() -> Result<Result<Shape, ShapeError>, pp_status>,
-    null: &str,
-    out: *mut *mut pp_particle,
-    built: *mut pp_built,
-    message: *mut c_char,
-    message_size: usize,
-) -> pp_status {
-    let particle = || {
-        Ok(make()?.map(|shape| {
-            // SAFETY: by contract.
-            if let Ok(built) = unsafe { output(built) } {
-                let (centroid, orientation) = (shape.centroid.into(), shape.orientation);
-                built.write(pp_built { centroid, orientation, mass: (&shape.mass).into() });
-            }
-            pp_particle(shape.particle)
-        }))
-    };
-    // SAFETY: by contract.
-    unsafe { create(particle, null, out, message, message_size) }
+/// The particle of a shape, and how it stands.
+pub(super) fn built_from(shape: Shape) -> (pp_particle, impl FnOnce() -> pp_built) {
+    let (centroid, orientation, mass) = (shape.centroid.into(), shape.orientation, shape.mass);
+    (pp_particle(shape.particle), move || pp_built { centroid, orientation, mass: (&mass).into() })
 }
 
 impl Refusal for ShapeError {

@@ -1,7 +1,7 @@
 //! The contact of one pair, its area, and one closest point alone.
 
-use super::convert::*;
-use super::fence::{borrow, fenced, output, place};
+use super::convert::{area_tolerance, detect_status, role_from};
+use super::fence::{call, give};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
@@ -16,11 +16,7 @@ use std::mem::MaybeUninit;
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_settings_default(settings: *mut pp_settings) -> pp_status {
-    fenced(|| {
-        let out = unsafe { output(settings) }?;
-        out.write(settings_to(&Settings::default()));
-        Ok(())
-    })
+    give!(settings, [], Ok(Settings::DEFAULT))
 }
 
 /// Finds the contact of particle A at pose_a with particle B at pose_b.
@@ -43,16 +39,8 @@ pub unsafe extern "C" fn pp_contact_detect(
     state: *mut pp_pair_state,
     out: *mut pp_contact,
 ) -> pp_status {
-    fenced(|| {
-        // One body after the other, as of a batch.
-        let (a, pose_a) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let (b, pose_b) = unsafe { (&borrow(b)?.0, pose_from(borrow(pose_b)?)?) };
-        let out = unsafe { place(out) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        // SAFETY: NULL or exclusively ours for the call.
-        let state = unsafe { state.as_mut() }.map(state_of);
-        contact((a, &pose_a), (b, &pose_b), &settings, state, out)
-    })
+    // One body after the other, as of a batch.
+    call!([a, pose_a, b, pose_b, out, settings, state], contact((a, &pose_a), (b, &pose_b), settings, state, out))
 }
 
 /// Finds one contact and writes it.
@@ -64,7 +52,7 @@ pub(super) fn contact(
     state: Option<&mut PairState>,
     out: &mut MaybeUninit<Contact>,
 ) -> Result<(), pp_status> {
-    detect_into(a, b, settings, state, out).map(|_| ()).map_err(|error| detect_status(&error))
+    detect_into(a, b, settings, state, out).map(|_| ()).map_err(detect_status)
 }
 
 /// The point on one of the particles where the scale of the other is least: P1 on A, P2 on B (paper eqs
@@ -85,15 +73,9 @@ pub unsafe extern "C" fn pp_closest_point(
     settings: *const pp_settings,
     out: *mut pp_closest,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let out = unsafe { output(out) }?;
-        let on = role_from(on)?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
-        out.write(found.unwrap_or(ClosestPoint::UNKNOWN));
-        Ok(())
+    give!(out, [a, pose_a, b, pose_b, settings], {
+        let found = closest_point(a, &pose_a, b, &pose_b, role_from(on)?, settings).map_err(detect_status)?;
+        Ok(found.unwrap_or(ClosestPoint::UNKNOWN))
     })
 }
 
@@ -117,20 +99,11 @@ pub unsafe extern "C" fn pp_contact_area(
     relative_tolerance: f64,
     area: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { contact_of(contact) }?;
-        let out = unsafe { output(area) }?;
-        if !(1e-12..=0.1).contains(&relative_tolerance) {
-            return Err(PP_BAD_SETTING);
+    give!(area, [a, pose_a, b, pose_b, contact], {
+        let tolerance = area_tolerance(relative_tolerance)?;
+        match contact.kind {
+            Kind::Overlapping => Section::from(contact).area(a, &pose_a, b, &pose_b, tolerance).ok_or(PP_BAD_POINT),
+            Kind::Separated => Ok(0.0),
         }
-        out.write(match contact.kind {
-            Kind::Overlapping => {
-                Section::from(contact).area(a, &pose_a, b, &pose_b, relative_tolerance).ok_or(PP_BAD_POINT)?
-            }
-            Kind::Separated => 0.0,
-        });
-        Ok(())
     })
 }

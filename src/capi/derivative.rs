@@ -1,28 +1,17 @@
 //! Derivatives of contacts in poses and shapes.
 
-use super::convert::{contact_of, detect_status, pose_from, settings_from, settings_status};
-use super::fence::{Output, array_mut, borrow, fenced, output};
-use super::flat::{flat_contact_of, triangle_from};
+use super::argument::Argument;
+use super::convert::{detect_status, settings_status};
+use super::fence::give;
+use super::flat::boundary_from;
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
-use crate::boundary::Triangle;
 use crate::particle::particle::{Particle, Plane};
 use crate::{
-    ContactDerivatives, ContactWeights, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows,
-    ShapeGradient, boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
+    ContactDerivatives, DerivativeError, DerivativeFlags, PoseGradient, PoseRow, PoseRows, ShapeGradient,
+    boundary_derivatives, boundary_gradient, contact_derivatives, contact_gradient,
 };
-
-/// Whether a plane is active at the contact point cannot be told. The derivatives are those with the plane
-/// inactive; the derivative of s is the same either way.
-pub const PP_DERIVATIVE_SWITCHING: u32 = 1;
-/// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
-/// derivatives may be as large as 1/flat_regularisation.
-pub const PP_DERIVATIVE_FREE: u32 = 2;
-/// The contact is separated: overlap and surface points have no derivatives, and are NaN.
-pub const PP_DERIVATIVE_SEPARATED: u32 = 4;
-/// Fewer than four digits may be right: depths of planes are of the size of their rounding.
-pub const PP_DERIVATIVE_IMPRECISE: u32 = 8;
 
 /// Derivatives of a contact in the poses of A and B, as of struct pp_contact. Columns of each row: shift of A
 /// along x, y, z; rotation of A about x, y, z through its position (world axes, radians); then the same six
@@ -85,15 +74,8 @@ pub unsafe extern "C" fn pp_contact_derivatives(
     contact: *const pp_contact,
     out: *mut pp_derivatives,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = unsafe { contact_of(contact) }?;
-        let out = unsafe { output(out) }?;
-        let found = contact_derivatives(a, &pose_a, b, &pose_b, contact, &settings).map_err(status_of)?;
-        out.write(derivatives_to(&found));
-        Ok(())
+    give!(out, [a, pose_a, b, pose_b, settings, contact], {
+        contact_derivatives(a, &pose_a, b, &pose_b, contact, settings).map(derivatives_to).map_err(status_of)
     })
 }
 
@@ -119,18 +101,12 @@ pub unsafe extern "C" fn pp_contact_gradient(
     poses: *mut pp_pose_gradient,
     flags: *mut u32,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = unsafe { contact_of(contact) }?;
-        let weights = checked(unsafe { borrow(weights) }?)?;
-        let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
+    give!((poses, flags), [a, pose_a, b, pose_b, settings, contact, weights], {
+        // SAFETY: as the caller has promised.
         let mut shapes = [unsafe { Shape::of(shape_a, a) }?, unsafe { Shape::of(shape_b, b) }?];
-        let [of_a, of_b] = &mut shapes;
-        let (of_a, of_b) = (of_a.as_mut().map(|s| &mut s.sum), of_b.as_mut().map(|s| &mut s.sum));
-        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, &settings, weights, of_a, of_b);
-        write(found, shapes, &poses, &flags)
+        let [of_a, of_b] = shapes.each_mut().map(Shape::sum);
+        let found = contact_gradient(a, &pose_a, b, &pose_b, contact, settings, weights, of_a, of_b);
+        added(found, shapes)
     })
 }
 
@@ -150,15 +126,10 @@ pub unsafe extern "C" fn pp_flat_contact_derivatives(
     contact: *const pp_flat_contact,
     out: *mut pp_derivatives,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+    give!(out, [a, pose_a, settings, contact], {
+        // SAFETY: as the caller has promised.
         let triangle = unsafe { boundary_from(vertices) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = unsafe { flat_contact_of(contact) }?;
-        let out = unsafe { output(out) }?;
-        let found = boundary_derivatives(a, &pose, triangle.as_ref(), contact, &settings).map_err(status_of)?;
-        out.write(derivatives_to(&found));
-        Ok(())
+        boundary_derivatives(a, &pose_a, triangle.as_ref(), contact, settings).map(derivatives_to).map_err(status_of)
     })
 }
 
@@ -181,17 +152,13 @@ pub unsafe extern "C" fn pp_flat_contact_gradient(
     poses: *mut pp_pose_gradient,
     flags: *mut u32,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+    give!((poses, flags), [a, pose_a, settings, contact, weights], {
+        // SAFETY: as the caller has promised.
         let triangle = unsafe { boundary_from(vertices) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        let contact = unsafe { flat_contact_of(contact) }?;
-        let weights = checked(unsafe { borrow(weights) }?)?;
-        let (poses, flags) = unsafe { (output(poses.cast::<[pp_pose_gradient; 2]>())?, output(flags)?) };
         let mut gradient = unsafe { Shape::of(shape, a) }?;
-        let sum = gradient.as_mut().map(|s| &mut s.sum);
-        let found = boundary_gradient(a, &pose, triangle.as_ref(), contact, &settings, weights, sum);
-        write(found, [gradient, None], &poses, &flags)
+        let sum = Shape::sum(&mut gradient);
+        let found = boundary_gradient(a, &pose_a, triangle.as_ref(), contact, settings, weights, sum);
+        added(found, [gradient])
     })
 }
 
@@ -210,8 +177,13 @@ impl<'a> Shape<'a> {
         if given.count != particle.plane_count() {
             return Err(PP_BAD_INDEX);
         }
-        let planes = unsafe { array_mut(given.planes.cast::<[f64; 4]>(), given.count) }?;
+        // SAFETY: as promised.
+        let planes = unsafe { (given.planes.cast::<[f64; 4]>(), given.count).take() }?;
         Ok(Some(Self { given, planes, sum: ShapeGradient::zeros(particle) }))
+    }
+
+    fn sum(shape: &mut Option<Self>) -> Option<&mut ShapeGradient> {
+        shape.as_mut().map(|shape| &mut shape.sum)
     }
 
     fn add(self) {
@@ -226,51 +198,33 @@ impl<'a> Shape<'a> {
     }
 }
 
-fn write(
+/// The gradients of both poses, and flags; those of shapes are added.
+fn added<const N: usize>(
     found: Result<([PoseGradient; 2], DerivativeFlags), DerivativeError>,
-    shapes: [Option<Shape>; 2],
-    poses: &Output<[pp_pose_gradient; 2]>,
-    flags: &Output<u32>,
-) -> Result<(), pp_status> {
-    let (gradients, found) = found.map_err(status_of)?;
+    shapes: [Option<Shape>; N],
+) -> Result<([PoseGradient; 2], u32), pp_status> {
+    let (gradients, flags) = found.map_err(status_of)?;
     shapes.into_iter().flatten().for_each(Shape::add);
-    poses.write(gradients);
-    flags.write(found.bits());
-    Ok(())
+    Ok((gradients, flags.bits()))
 }
 
 fn status_of(error: DerivativeError) -> pp_status {
     match error {
-        DerivativeError::Settings(error) => settings_status(&error),
+        DerivativeError::Settings(error) => settings_status(error),
         DerivativeError::NoPoint | DerivativeError::NotFinite | DerivativeError::NoTriangle => PP_BAD_POINT,
         DerivativeError::NoGradient | DerivativeError::NoCurvature => PP_NO_DERIVATIVE,
-        DerivativeError::Detect(error) => detect_status(&error),
+        DerivativeError::Detect(error) => detect_status(error),
         DerivativeError::Planes { .. } => PP_BAD_INDEX,
     }
 }
 
-/// No triangle for a plane.
-///
-/// # Safety
-/// `vertices` is NULL or points to 9 numbers.
-pub(super) unsafe fn boundary_from(vertices: *const f64) -> Result<Option<Triangle>, pp_status> {
-    if vertices.is_null() { Ok(None) } else { unsafe { triangle_from(vertices) }.map(Some) }
-}
-
-fn checked(weights: &ContactWeights) -> Result<&ContactWeights, pp_status> {
-    let ContactWeights { s, s_b, overlap, normal, point, point_on_a, point_on_b } = weights;
-    let vectors = [normal, point, point_on_a, point_on_b];
-    let is_finite = [s, s_b, overlap].into_iter().chain(vectors.into_iter().flatten()).all(|v| v.is_finite());
-    if is_finite { Ok(weights) } else { Err(PP_BAD_SETTING) }
-}
-
 /// The rows of x, y and z.
 pub(super) fn rows(rows: &PoseRows) -> [[f64; 12]; 3] {
-    std::array::from_fn(|i| std::array::from_fn(|column| rows[(i, column)]))
+    rows.transpose().into()
 }
 
-fn derivatives_to(found: &ContactDerivatives) -> pp_derivatives {
-    let row = |row: &PoseRow| std::array::from_fn(|column| row[column]);
+fn derivatives_to(found: ContactDerivatives) -> pp_derivatives {
+    let row = |row: &PoseRow| row.transpose().into();
     pp_derivatives {
         flags: found.flags.bits(),
         reserved: 0,

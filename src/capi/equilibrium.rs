@@ -1,7 +1,9 @@
 //! Limit analysis over the C boundary: one call for a scene of rigid bodies.
 
-use super::fence::{array, output, outputs};
-use super::message::{Refusal, explained};
+#[cfg(feature = "cone-program")]
+use super::message::Refusal;
+use super::message::{Refused, explain};
+use super::output::{Holds, check_room, fill};
 use super::status::*;
 #[cfg(feature = "cone-program")]
 use crate::equilibrium::{
@@ -103,26 +105,33 @@ pub unsafe extern "C" fn pp_equilibrium(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let solve = || {
-        let (bodies, contacts) = unsafe { (array(bodies, body_count)?, array(contacts, contact_count)?) };
-        let corners = unsafe { array(corners.cast::<[f64; 3]>(), corner_count) }?;
-        let result = unsafe { output(result) }?;
-        let rows = |of: *mut f64, count: usize| if of.is_null() { 0 } else { count };
-        let forces = unsafe { outputs(forces.cast::<[f64; 3]>(), rows(forces, corner_count)) }?;
-        let velocities = unsafe { outputs(velocities.cast::<[f64; 6]>(), rows(velocities, body_count)) }?;
-        let found = match answer(question, dilatant, bodies, contacts, corners)? {
-            Ok(found) => found,
-            Err(error) => return Ok(Err(error)),
-        };
-        let (head, found_forces, found_velocities) = found;
-        let mut found_forces = found_forces.into_iter();
-        forces.iter_mut().for_each(|place| _ = place.write(found_forces.next().unwrap_or_default()));
-        let mut found_velocities = found_velocities.into_iter();
-        velocities.iter_mut().for_each(|place| _ = place.write(found_velocities.next().unwrap_or_default()));
-        result.write(head);
-        Ok(Ok(()))
-    };
-    unsafe { explained(solve, "bodies, contacts, corners and result must not be NULL", message, message_size) }
+    explain!(
+        message[message_size],
+        "result",
+        (),
+        [bodies[body_count], contacts[contact_count], corners[corner_count]],
+        {
+            check_room(result, 1).map_err(|status| Refused::argument(status, "result"))?;
+            let (head, forces_found, velocities_found) = answer(question, dilatant, bodies, contacts, corners)?;
+            // SAFETY: checked, and as the caller has promised.
+            unsafe {
+                fill_if_wanted(forces.place(), corner_count, forces_found)?;
+                fill_if_wanted(velocities.place(), body_count, velocities_found)?;
+                result.write(head);
+            }
+            Ok(())
+        }
+    )
+}
+
+/// Writes as many rows, zeros where none was found; nothing where it may.
+///
+/// # Safety
+/// `to` is NULL or valid for writing them.
+unsafe fn fill_if_wanted<V: Default>(to: *mut V, count: usize, rows: Vec<V>) -> Result<(), pp_status> {
+    let rows = rows.into_iter().chain(std::iter::repeat_with(V::default));
+    // SAFETY: as promised.
+    if to.is_null() { Ok(()) } else { unsafe { fill(to, count, rows) } }
 }
 
 /// The result, rows of forces and of velocities.
@@ -135,11 +144,11 @@ fn answer(
     bodies: &[pp_rigid_body],
     contacts: &[pp_rigid_contact],
     corners: &[[f64; 3]],
-) -> Result<Result<Found, EquilibriumError>, pp_status> {
+) -> Result<Found, Refused> {
     let flow = match dilatant {
         0 => Flow::NonDilatant,
         1 => Flow::Associated,
-        _ => return Err(PP_BAD_SETTING),
+        _ => return Err(PP_BAD_SETTING.into()),
     };
     let load = |force: [f64; 3], torque: [f64; 3]| Load { force: force.into(), torque: torque.into() };
     let body = |body: &pp_rigid_body| {
@@ -169,20 +178,19 @@ fn answer(
     let bodies = bodies.iter().map(body).collect::<Result<_, pp_status>>()?;
     let contacts = contacts.iter().map(contact).collect::<Result<_, pp_status>>()?;
     if !left.is_empty() {
-        return Err(PP_BAD_INDEX);
+        return Err(PP_BAD_INDEX.into());
     }
     let scene = Scene { bodies, contacts };
     let found = match question {
         PP_STANDS => stands(&scene),
         PP_LOAD_FACTOR => load_factor(&scene, flow),
         PP_STRENGTH_FACTOR => strength_factor(&scene, flow),
-        _ => return Err(PP_BAD_SETTING),
-    };
+        _ => return Err(PP_BAD_SETTING.into()),
+    }?;
     let six = |Velocity { linear: v, angular: w }: Velocity| [v.x, v.y, v.z, w.x, w.y, w.z];
-    Ok(found.map(|Equilibrium { stands, factor, forces, mechanism, unbalanced, excess, programs }| {
-        let head = pp_equilibrium_result { stands: stands.into(), programs, factor, unbalanced, excess };
-        (head, forces.into_iter().map(<[f64; 3]>::from).collect(), mechanism.into_iter().map(six).collect())
-    }))
+    let Equilibrium { stands, factor, forces, mechanism, unbalanced, excess, programs } = found;
+    let head = pp_equilibrium_result { stands: stands.into(), programs, factor, unbalanced, excess };
+    Ok((head, forces.into_iter().map(<[f64; 3]>::from).collect(), mechanism.into_iter().map(six).collect()))
 }
 
 #[cfg(feature = "cone-program")]
@@ -196,19 +204,6 @@ impl Refusal for EquilibriumError {
 }
 
 #[cfg(not(feature = "cone-program"))]
-fn answer(
-    _: u32,
-    _: u32,
-    _: &[pp_rigid_body],
-    _: &[pp_rigid_contact],
-    _: &[[f64; 3]],
-) -> Result<Result<Found, std::convert::Infallible>, pp_status> {
-    Err(PP_NO_CONE_PROGRAM)
-}
-
-#[cfg(not(feature = "cone-program"))]
-impl Refusal for std::convert::Infallible {
-    fn status(&self) -> pp_status {
-        match *self {}
-    }
+fn answer(_: u32, _: u32, _: &[pp_rigid_body], _: &[pp_rigid_contact], _: &[[f64; 3]]) -> Result<Found, Refused> {
+    Err(PP_NO_CONE_PROGRAM.into())
 }

@@ -1,8 +1,7 @@
-//! Nothing but a status crosses the boundary: panics are caught here, NULL is refused here.
+//! Nothing but a status crosses the boundary: the body of every function, within which panics are caught.
 
-use super::status::{PP_BAD_INDEX, PP_BUFFER_TOO_SMALL, PP_INTERNAL_ERROR, PP_NULL_POINTER, PP_OK, pp_status};
+use super::status::{PP_INTERNAL_ERROR, PP_OK, pp_status};
 use std::cell::Cell;
-use std::mem::MaybeUninit;
 use std::panic::{self, AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 use std::thread;
@@ -55,145 +54,34 @@ fn silence_panics_inside() {
     }
 }
 
-/// Reborrows a pointer argument, or reports `PP_NULL_POINTER`.
-///
-/// # Safety
-/// `pointer` is NULL or points to a valid, aligned `T` that nobody writes while `'a` lasts.
-pub(super) unsafe fn borrow<'a, T>(pointer: *const T) -> Result<&'a T, pp_status> {
-    unsafe { pointer.as_ref() }.ok_or(PP_NULL_POINTER)
+/// The body of a C function: its arguments are taken, an array as `rows[count]`, then the code finds them under their
+/// own names and ends in a `Result`.
+macro_rules! call {
+    ([$($argument:ident $([$count:ident])?),*], $body:expr) => {
+        $crate::capi::fence::fenced(|| {
+            $(let $argument = $crate::capi::argument::take!($argument $([$count])?)?;)*
+            $body
+        })
+    };
 }
+pub(super) use call;
 
-/// The array behind a pointer argument, which may be NULL when it has no elements.
-///
-/// # Safety
-/// `pointer` is NULL or points to `count` valid, aligned `T` that nobody writes while `'a` lasts.
-pub(super) unsafe fn array<'a, T>(pointer: *const T, count: usize) -> Result<&'a [T], pp_status> {
-    if check_array(pointer, count)? { Ok(unsafe { std::slice::from_raw_parts(pointer, count) }) } else { Ok(&[]) }
+/// The same where the code ends in an answer for an [`Output`](super::output::Output).
+macro_rules! give {
+    ($out:expr, [$($argument:ident $([$count:ident])?),*], $body:expr) => {
+        $crate::capi::fence::call!([$($argument $([$count])?),*], {
+            let body = || $body;
+            // SAFETY: as the caller has promised.
+            unsafe { $crate::capi::output::written($out, std::convert::identity, body) }
+        })
+    };
 }
-
-/// The array for outputs behind a pointer argument, which may be NULL when it has no elements.
-///
-/// # Safety
-/// `pointer` is NULL or valid for writing `count` aligned `T`, which nobody else uses while `'a` lasts.
-pub(super) unsafe fn outputs<'a, T>(pointer: *mut T, count: usize) -> Result<&'a mut [MaybeUninit<T>], pp_status> {
-    // SAFETY: as promised; memory that may not be initialised is never taken for more.
-    unsafe { array_mut(pointer.cast(), count) }
-}
-
-/// The array behind a pointer argument, for reading and writing; it may be NULL when it has no elements.
-///
-/// # Safety
-/// `pointer` is NULL or points to `count` valid, aligned `T` that nobody else uses while `'a` lasts.
-pub(super) unsafe fn array_mut<'a, T>(pointer: *mut T, count: usize) -> Result<&'a mut [T], pp_status> {
-    if check_array(pointer, count)? {
-        Ok(unsafe { std::slice::from_raw_parts_mut(pointer, count) })
-    } else {
-        Ok(&mut [])
-    }
-}
-
-/// Whether there is an array at all; refuses NULL where there should be one, and more elements than any memory holds.
-fn check_array<T>(pointer: *const T, count: usize) -> Result<bool, pp_status> {
-    match count {
-        0 => Ok(false),
-        _ if pointer.is_null() => Err(PP_NULL_POINTER),
-        _ if count > isize::MAX as usize / size_of::<T>() => Err(PP_BAD_INDEX),
-        _ => Ok(true),
-    }
-}
-
-/// The output behind a pointer argument, or `PP_NULL_POINTER`. Only ever written through.
-///
-/// # Safety
-/// `pointer` is NULL or valid for writing one `T`.
-pub(super) unsafe fn output<T>(pointer: *mut T) -> Result<Output<T>, pp_status> {
-    if pointer.is_null() { Err(PP_NULL_POINTER) } else { Ok(Output(pointer)) }
-}
-
-/// The same as memory that the library itself writes.
-///
-/// # Safety
-/// `pointer` is NULL or valid for writing one aligned `T`, which nobody else uses while `'a` lasts.
-pub(super) unsafe fn place<'a, T>(pointer: *mut T) -> Result<&'a mut MaybeUninit<T>, pp_status> {
-    unsafe { pointer.cast::<MaybeUninit<T>>().as_mut() }.ok_or(PP_NULL_POINTER)
-}
-
-/// A checked place for one result. It may be uninitialised memory, so it is never read.
-pub(super) struct Output<T>(*mut T);
-
-impl<T> Output<T> {
-    #[inline]
-    pub(super) fn write(&self, value: T) {
-        // SAFETY: `output` was promised a pointer valid for writing one `T`; an output in an array is one.
-        unsafe { self.0.write_unaligned(value) }
-    }
-}
-
-/// Writes what `get` gives of the object behind a pointer argument.
-///
-/// # Safety
-/// As of [`borrow`] and [`output`].
-pub(super) unsafe fn read<T, V>(object: *const T, to: *mut V, get: impl FnOnce(&T) -> V) -> pp_status {
-    fenced(|| {
-        let object = unsafe { borrow(object) }?;
-        unsafe { output(to) }?.write(get(object));
-        Ok(())
-    })
-}
-
-/// Drops an object that a caller gives back; nothing for NULL.
-///
-/// # Safety
-/// `object` is NULL or came from `Box::into_raw`, and is given back once.
-pub(super) unsafe fn release<T>(object: *mut T) {
-    if !object.is_null() {
-        drop(unsafe { Box::from_raw(object) });
-    }
-}
-
-/// Refuses a buffer that is NULL but said to have room, whatever there is to be written.
-pub(super) fn check_room<T>(buffer: *mut T, capacity: usize) -> Result<(), pp_status> {
-    if capacity > 0 && buffer.is_null() { Err(PP_NULL_POINTER) } else { Ok(()) }
-}
-
-/// Writes rows of N doubles and how many there are; with too little room, only how many there are.
-///
-/// # Safety
-/// `to` is NULL or valid for writing N * capacity doubles, `count` NULL or valid for writing one number.
-pub(super) unsafe fn write_rows<const N: usize>(
-    rows: impl ExactSizeIterator<Item = [f64; N]>,
-    to: *mut f64,
-    capacity: usize,
-    count: *mut usize,
-) -> Result<(), pp_status> {
-    unsafe { write_all(rows, to.cast::<[f64; N]>(), capacity, count) }
-}
-
-/// Writes all rows and how many there are; with too little room, only how many there are.
-///
-/// # Safety
-/// `to` is NULL or valid for writing capacity rows, `count` NULL or valid for writing one number.
-pub(super) unsafe fn write_all<T>(
-    rows: impl ExactSizeIterator<Item = T>,
-    to: *mut T,
-    capacity: usize,
-    count: *mut usize,
-) -> Result<(), pp_status> {
-    let count = unsafe { output(count) }?;
-    check_room(to, capacity)?;
-    let there_are = rows.len();
-    count.write(there_are);
-    if there_are > capacity {
-        return Err(PP_BUFFER_TOO_SMALL);
-    }
-    let places = unsafe { outputs(to, there_are) }?;
-    places.iter_mut().zip(rows).for_each(|(place, row)| _ = place.write(row));
-    Ok(())
-}
+pub(super) use give;
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::capi::PP_NULL_POINTER;
     use std::process::Command;
 
     /// In a process of its own, since what is printed is the point, and the hook is one for all.

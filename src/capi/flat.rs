@@ -1,11 +1,12 @@
 //! The contact of a particle with a flat boundary.
 
-use super::convert::{detect_status, pose_from, settings_from, state_of};
-use super::fence::{borrow, fenced, output};
+use super::argument::take;
+use super::convert::{area_tolerance, detect_status, settings_status};
+use super::fence::give;
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
-use crate::{BoundaryError, Feature, FlatContact, Kind, Section, Triangle, Wall};
+use crate::{BoundaryError, Feature, Kind, Section, Triangle, Wall};
 use crate::{Onwards, contact_with_plane, contact_with_triangle, onwards_from_seam};
 
 /// The point on the boundary lies on the plane, or inside the triangle.
@@ -40,17 +41,9 @@ pub unsafe extern "C" fn pp_contact_plane(
     state: *mut pp_pair_state,
     out: *mut pp_flat_contact,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let (point, normal) = unsafe { (borrow(point.cast::<[f64; 3]>())?, borrow(normal.cast::<[f64; 3]>())?) };
-        let out = unsafe { output(out) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
+    give!(out, [a, pose_a, point, normal, settings, state], {
         let wall = Wall::new(*point, *normal).map_err(boundary_status)?;
-        // SAFETY: NULL or exclusively ours for the call.
-        let state = unsafe { state.as_mut() }.map(state_of);
-        let found = contact_with_plane(a, &pose, &wall, &settings, state);
-        out.write(found.map_err(|error| detect_status(&error))?);
-        Ok(())
+        contact_with_plane(a, &pose_a, &wall, settings, state).map_err(detect_status)
     })
 }
 
@@ -74,16 +67,8 @@ pub unsafe extern "C" fn pp_contact_triangle(
     state: *mut pp_pair_state,
     out: *mut pp_flat_contact,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let triangle = unsafe { triangle_from(vertices) }?;
-        let out = unsafe { output(out) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        // SAFETY: NULL or exclusively ours for the call.
-        let state = unsafe { state.as_mut() }.map(state_of);
-        let found = contact_with_triangle(a, &pose, &triangle, &settings, state);
-        out.write(found.map_err(|error| detect_status(&error))?);
-        Ok(())
+    give!(out, [a, pose_a, vertices, settings, state], {
+        contact_with_triangle(a, &pose_a, &triangle_of(vertices)?, settings, state).map_err(detect_status)
     })
 }
 
@@ -111,23 +96,20 @@ pub unsafe extern "C" fn pp_seam_slope(
     share: *mut f64,
     sense: *mut i32,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let (own, other) = unsafe { (triangle_from(vertices)?, triangle_from(neighbour)?) };
-        let (found, out) = unsafe { (output(share)?, output(sense)?) };
-        let mut place = *unsafe { borrow(share) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        settings.validate().map_err(|_| PP_BAD_SETTING)?;
+    give!((share, sense), [a, pose_a, vertices, neighbour, settings], {
+        let (own, other) = (triangle_of(vertices)?, triangle_of(neighbour)?);
+        let guess = share.cast_const();
+        let [mut place] = *take!(guess)?;
+        settings.validate().map_err(settings_status)?;
         let feature = Feature::from_number(feature).filter(|feature| *feature != Feature::Interior);
         let feature = feature.filter(|_| (0.0..=1.0).contains(&place)).ok_or(PP_BAD_POINT)?;
-        let onwards = onwards_from_seam(a, &pose, &own, feature, &other, &settings, &mut place);
-        found.write(place);
-        out.write(match onwards {
+        let onwards = onwards_from_seam(a, &pose_a, &own, feature, &other, settings, &mut place);
+        let sense = match onwards {
             Onwards::Falls => -1,
             Onwards::Rises => 1,
             Onwards::Unknown => 0,
-        });
-        Ok(())
+        };
+        Ok((place, sense))
     })
 }
 
@@ -146,20 +128,12 @@ pub unsafe extern "C" fn pp_flat_contact_area(
     relative_tolerance: f64,
     area: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let contact = unsafe { flat_contact_of(contact) }?;
-        let out = unsafe { output(area) }?;
-        if !(1e-12..=0.1).contains(&relative_tolerance) {
-            return Err(PP_BAD_SETTING);
+    give!(area, [a, pose_a, contact], {
+        let tolerance = area_tolerance(relative_tolerance)?;
+        match contact.kind {
+            Kind::Overlapping => Section::from(contact).area(a, &pose_a, a, &pose_a, tolerance).ok_or(PP_BAD_POINT),
+            Kind::Separated => Ok(0.0),
         }
-        out.write(match contact.kind {
-            Kind::Overlapping => {
-                Section::from(contact).area(a, &pose, a, &pose, relative_tolerance).ok_or(PP_BAD_POINT)?
-            }
-            Kind::Separated => 0.0,
-        });
-        Ok(())
     })
 }
 
@@ -170,21 +144,15 @@ fn boundary_status(error: BoundaryError) -> pp_status {
     }
 }
 
-/// # Safety
-/// `vertices` is NULL or points to 9 numbers.
-pub(super) unsafe fn triangle_from(vertices: *const f64) -> Result<Triangle, pp_status> {
-    Triangle::new(*unsafe { borrow(vertices.cast::<[[f64; 3]; 3]>()) }?).map_err(boundary_status)
+pub(super) fn triangle_of(vertices: &[f64; 9]) -> Result<Triangle, pp_status> {
+    let corner = |i: usize| [vertices[3 * i], vertices[3 * i + 1], vertices[3 * i + 2]];
+    Triangle::new([corner(0), corner(1), corner(2)]).map_err(boundary_status)
 }
 
-/// A contact that a caller hands back: what is no enum in Rust was not written by this library.
+/// No triangle for a plane.
 ///
 /// # Safety
-/// `contact` is NULL or points to a contact.
-pub(super) unsafe fn flat_contact_of<'a>(contact: *const pp_flat_contact) -> Result<&'a FlatContact, pp_status> {
-    // SAFETY: its first two fields are words; they are looked at before they count as enums.
-    let [kind, feature] = *unsafe { borrow(contact.cast::<[u32; 2]>()) }?;
-    match (kind, Feature::from_number(feature)) {
-        (1..=2, Some(_)) => unsafe { borrow(contact) },
-        _ => Err(PP_BAD_POINT),
-    }
+/// `vertices` is NULL or points to 9 numbers.
+pub(super) unsafe fn boundary_from(vertices: *const f64) -> Result<Option<Triangle>, pp_status> {
+    if vertices.is_null() { Ok(None) } else { triangle_of(take!(vertices)?).map(Some) }
 }

@@ -1,6 +1,6 @@
 //! Why nothing was made, in words: the message that a function writes beside its status.
 
-use super::fence::{fenced, output};
+use super::fence::fenced;
 use super::status::*;
 use std::ffi::c_char;
 use std::fmt::Display;
@@ -10,47 +10,72 @@ pub(super) trait Refusal: Display {
     fn status(&self) -> pp_status;
 }
 
-/// Runs `make`. Why it failed is written to the message: the error's own sentence, `null` for a pointer that is NULL,
-/// else that of the status. Pointers: message is NULL or valid for writing size bytes.
-pub(super) unsafe fn explained<E: Refusal>(
-    make: impl FnOnce() -> Result<Result<(), E>, pp_status>,
-    null: &str,
-    message: *mut c_char,
-    size: usize,
+/// A status with its message: the error's own sentence, else that of the status.
+pub(super) struct Refused(pp_status, Option<String>);
+
+impl Refused {
+    /// Of an argument.
+    pub(super) fn argument(status: pp_status, name: &str) -> Self {
+        Self(status, (status == PP_NULL_POINTER).then(|| format!("{name} must not be NULL")))
+    }
+
+    pub(super) fn new(status: pp_status, text: String) -> Self {
+        Self(status, Some(text))
+    }
+}
+
+impl From<pp_status> for Refused {
+    fn from(status: pp_status) -> Self {
+        Self(status, None)
+    }
+}
+
+impl<E: Refusal> From<E> for Refused {
+    fn from(error: E) -> Self {
+        Self::new(error.status(), error.to_string())
+    }
+}
+
+/// Runs `body`, and writes why it failed to the message.
+///
+/// # Safety
+/// message is NULL or valid for writing size bytes.
+pub(super) unsafe fn explained(
+    body: impl FnOnce() -> Result<(), Refused>,
+    (message, size): (*mut c_char, usize),
 ) -> pp_status {
     // SAFETY: by contract.
     let explain = |text: &str| unsafe { write_message(text, message, size) };
     let status = fenced(|| {
-        make()?.map_err(|error| {
-            explain(&error.to_string());
-            error.status()
+        body().map_err(|Refused(status, text)| {
+            explain(text.as_deref().unwrap_or(sentence(status)));
+            status
         })
     });
-    match status {
-        PP_NULL_POINTER => explain(null),
-        PP_BAD_INDEX | PP_INTERNAL_ERROR => explain(sentence(status)),
-        _ => {}
+    if status == PP_INTERNAL_ERROR {
+        explain(sentence(status));
     }
     status
 }
 
-/// The same for an object, which is handed to the caller.
-/// Pointers: out is NULL or valid for writing, message is NULL or valid for writing size bytes.
-pub(super) unsafe fn create<T, E: Refusal>(
-    make: impl FnOnce() -> Result<Result<T, E>, pp_status>,
-    null: &str,
-    out: *mut *mut T,
-    message: *mut c_char,
-    size: usize,
-) -> pp_status {
-    let make = || {
-        // SAFETY: by contract.
-        let out = unsafe { output(out) }?;
-        Ok(make()?.map(|made| out.write(Box::into_raw(Box::new(made)))))
-    };
-    // SAFETY: by contract.
-    unsafe { explained(make, null, message, size) }
+/// [`give!`](super::fence::give) of a function that explains itself. What is NULL is named, of the outputs by `$name`.
+macro_rules! explain {
+    ($message:ident [$size:ident], $name:literal, $out:expr, [$($argument:ident $([$count:ident])?),*], $body:expr) => {{
+        let body = || -> Result<(), $crate::capi::message::Refused> {
+            $(
+                let $argument = $crate::capi::argument::take!($argument $([$count])?)
+                    .map_err(|status| $crate::capi::message::Refused::argument(status, stringify!($argument)))?;
+            )*
+            let null = |status| $crate::capi::message::Refused::argument(status, $name);
+            let body = || $body;
+            // SAFETY: as the caller has promised.
+            unsafe { $crate::capi::output::written($out, null, body) }
+        };
+        // SAFETY: as the caller has promised.
+        unsafe { $crate::capi::message::explained(body, ($message, $size)) }
+    }};
 }
+pub(super) use explain;
 
 /// Copies as much of text as fits, always zero-terminated.
 /// Pointers: message is NULL or valid for writing size bytes.

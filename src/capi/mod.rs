@@ -2,6 +2,9 @@
 //! must be. The conventions are written once, in the head of `include/potential_particles.h`
 //! (see `cbindgen.toml`).
 //!
+//! The body of a function is `call!`, `give!` or `explain!`: the arguments are taken as their types say (`argument`),
+//! and the answer is written (`output`), with why there is none (`message`).
+//!
 //! The documentation of every exported item is also the comment in the C header: plain text, without the marks of
 //! rustdoc, and "Pointers:" where Rust would have a section on safety.
 
@@ -11,6 +14,7 @@
 #![allow(clippy::missing_safety_doc)]
 
 mod abi;
+mod argument;
 mod batch;
 mod builder;
 mod contact;
@@ -20,6 +24,7 @@ mod equilibrium;
 mod fence;
 mod flat;
 mod message;
+mod output;
 mod packing;
 mod particle;
 mod patch;

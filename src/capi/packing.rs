@@ -1,14 +1,13 @@
 //! Packings over the C boundary: bodies are handed over as they find their places.
 
-use super::fence::{array, borrow};
-use super::message::{Refusal, explained};
+use super::argument::{Argument, objects, take};
+use super::message::{Refusal, Refused, explain};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::pp_pose;
 use crate::Particle;
 use crate::packing::{Arrangement, Container, PackError, Packing, Placement, Sizes, pack};
 use std::ffi::{c_char, c_void};
-use thiserror::Error;
 
 /// A box, sides along the axes.
 pub const PP_BOX: u32 = 0;
@@ -76,9 +75,6 @@ pub struct pp_placement {
 pub type pp_placed =
     Option<unsafe extern "C" fn(context: *mut c_void, placements: *const pp_placement, count: usize) -> i32>;
 
-/// What pp_pack says of a pointer that is NULL.
-const NOT_NULL: &str = "shapes and each of them, sizes (unless size_count is 0), how and placed must not be NULL";
-
 /// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
 /// pp_contact_detect decides.
 ///
@@ -103,15 +99,12 @@ pub unsafe extern "C" fn pp_pack(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let handles = unsafe { array(shapes, shape_count) }?;
+    explain!(message[message_size], "", (), [shapes[shape_count], sizes[size_count], how], {
         // SAFETY: each is NULL or a particle.
-        let shapes = handles.iter().map(|&shape| unsafe { borrow(shape) }.map(|particle| particle.0.clone()));
-        let shapes: Vec<Particle> = shapes.collect::<Result<_, _>>()?;
-        // SAFETY: the caller promised 2*size_count doubles.
-        let rows = unsafe { array(sizes.cast::<[f64; 2]>(), size_count) }?;
-        let how = unsafe { borrow(how) }?;
-        let placed = placed.ok_or(PP_NULL_POINTER)?;
+        let shapes: Result<Vec<Particle>, pp_status> =
+            shapes.iter().map(|&shape| take!(shape).map(Particle::clone)).collect();
+        let shapes = shapes.map_err(|status| Refused::argument(status, "each of shapes"))?;
+        let placed = placed.ok_or_else(|| Refused::argument(PP_NULL_POINTER, "placed"))?;
         let mut handed_over = 0;
         let hand_over = |all: &[Placement]| {
             let new: Vec<pp_placement> = all[handed_over..].iter().map(placement_to).collect();
@@ -119,43 +112,30 @@ pub unsafe extern "C" fn pp_pack(
             // SAFETY: the caller's function, with what it asks for.
             unsafe { placed(context, new.as_ptr(), new.len()) == 0 }
         };
-        Ok(filled(&shapes, rows, how, hand_over).map_err(NotPacked))
-    };
-    // SAFETY: the caller promised message_size bytes.
-    unsafe { explained(make, NOT_NULL, message, message_size) }
+        let (packing, container) = (packing_from(how)?, container_from(how)?);
+        pack(&container, &shapes, &sizes_from(how.shares, sizes)?, &packing, hand_over)?;
+        Ok(())
+    })
 }
 
-/// Why nothing was packed, as a sentence.
-#[derive(Debug, Error)]
-#[error("{0}")]
-struct NotPacked(String);
+objects! { pp_packing => &'a pp_packing, |how| Ok(how); }
 
-impl Refusal for NotPacked {
+impl Refusal for PackError {
     fn status(&self) -> pp_status {
         PP_BAD_PACKING
     }
 }
 
-/// Packs; an error is its sentence.
-fn filled(
-    shapes: &[Particle],
-    rows: &[[f64; 2]],
-    how: &pp_packing,
-    hand_over: impl FnMut(&[Placement]) -> bool,
-) -> Result<(), String> {
-    let say = |error: PackError| error.to_string();
-    let packing = packing_from(how)?;
-    let container = container_from(how)?.map_err(say)?;
-    let sizes = sizes_from(how.shares, rows)?.map_err(say)?;
-    pack(&container, shapes, &sizes, &packing, hand_over).map(|_| ()).map_err(say)
+fn unknown(text: String) -> Refused {
+    Refused::new(PP_BAD_PACKING, text)
 }
 
-fn packing_from(how: &pp_packing) -> Result<Packing, String> {
+fn packing_from(how: &pp_packing) -> Result<Packing, Refused> {
     Ok(Packing {
         arrangement: match how.arrangement {
             PP_SCATTERED => Arrangement::Scattered,
             PP_SETTLED => Arrangement::Settled,
-            other => return Err(format!("arrangement {other} is unknown: use PP_SCATTERED or PP_SETTLED")),
+            other => return Err(unknown(format!("arrangement {other} is unknown: use PP_SCATTERED or PP_SETTLED"))),
         },
         number: match how.number {
             0 => None,
@@ -167,26 +147,26 @@ fn packing_from(how: &pp_packing) -> Result<Packing, String> {
     })
 }
 
-fn container_from(how: &pp_packing) -> Result<Result<Container, PackError>, String> {
+fn container_from(how: &pp_packing) -> Result<Container, Refused> {
     let (lower, upper) = (how.lower, how.upper);
     match how.container {
-        PP_BOX => Ok(Container::cuboid(lower, upper)),
+        PP_BOX => Ok(Container::cuboid(lower, upper)?),
         PP_CYLINDER => {
             let middle = |axis: usize| lower[axis] + 0.5 * (upper[axis] - lower[axis]);
             let radius = 0.5 * (upper[0] - lower[0]).min(upper[1] - lower[1]);
-            Ok(Container::cylinder([middle(0), middle(1), lower[2]], radius, upper[2] - lower[2]))
+            Ok(Container::cylinder([middle(0), middle(1), lower[2]], radius, upper[2] - lower[2])?)
         }
-        other => Err(format!("container {other} is unknown: use PP_BOX or PP_CYLINDER")),
+        other => Err(unknown(format!("container {other} is unknown: use PP_BOX or PP_CYLINDER"))),
     }
 }
 
-fn sizes_from(shares: u32, rows: &[[f64; 2]]) -> Result<Result<Sizes, PackError>, String> {
+fn sizes_from(shares: u32, rows: &[[f64; 2]]) -> Result<Sizes, Refused> {
     match shares {
-        _ if rows.is_empty() => Ok(Ok(Sizes::as_given())),
-        PP_BY_NUMBER => Ok(Sizes::by_number(rows)),
-        PP_BY_MASS => Ok(Sizes::by_mass(rows)),
-        PP_PASSING => Ok(Sizes::passing(rows)),
-        other => Err(format!("shares {other} is unknown: use PP_BY_NUMBER, PP_BY_MASS or PP_PASSING")),
+        _ if rows.is_empty() => Ok(Sizes::as_given()),
+        PP_BY_NUMBER => Ok(Sizes::by_number(rows)?),
+        PP_BY_MASS => Ok(Sizes::by_mass(rows)?),
+        PP_PASSING => Ok(Sizes::passing(rows)?),
+        other => Err(unknown(format!("shares {other} is unknown: use PP_BY_NUMBER, PP_BY_MASS or PP_PASSING"))),
     }
 }
 

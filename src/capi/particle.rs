@@ -1,8 +1,10 @@
 //! Particles over the C boundary: creation, release, and the definition that they were created from.
 
-use super::convert::planes_from;
-use super::fence::{borrow, fenced, read, release, write_rows};
-use super::message::{Refusal, create};
+use super::argument::take;
+use super::convert::planes_of;
+use super::fence::give;
+use super::message::{Refusal, Refused, explain};
+use super::output::{New, release};
 use super::status::*;
 use crate::{Particle, ParticleError, Plane};
 use std::ffi::c_char;
@@ -43,16 +45,14 @@ pub unsafe extern "C" fn pp_particle_new(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
+    explain!(message[message_size], "out", New(out), [], {
+        // Before they are looked at.
         if count > PP_MAX_PLANES {
-            return Ok(Err(ParticleError::TooManyPlanes(count)));
+            return Err(ParticleError::TooManyPlanes(count).into());
         }
-        // SAFETY: the caller promised 4*count doubles.
-        let planes = unsafe { planes_from(planes, count) }?;
-        Ok(Particle::new(&planes, r, k, shadow_radius).map(pp_particle))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { create(make, "planes and out must not be NULL", out, message, message_size) }
+        let planes = take!(planes[count]).map_err(|status| Refused::argument(status, "planes"))?;
+        Ok(pp_particle(Particle::new(&planes_of(planes), r, k, shadow_radius)?))
+    })
 }
 
 /// The same shape factor times as large: d, r and R multiplied by it.
@@ -69,12 +69,7 @@ pub unsafe extern "C" fn pp_particle_scaled(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let particle = &unsafe { borrow(particle) }?.0;
-        Ok(particle.scaled(factor).map(pp_particle))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { create(make, "particle and out must not be NULL", out, message, message_size) }
+    explain!(message[message_size], "out", New(out), [particle], Ok(pp_particle(particle.scaled(factor)?)))
 }
 
 /// Releases a particle; NULL is allowed and does nothing. No call that uses it may still be running;
@@ -91,8 +86,7 @@ pub unsafe extern "C" fn pp_particle_free(particle: *mut pp_particle) {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_rounding_radius(particle: *const pp_particle, r: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, r, |particle| particle.0.rounding_radius()) }
+    give!(r, [particle], Ok(particle.rounding_radius()))
 }
 
 /// Sphericity k as given to pp_particle_new, no unit.
@@ -100,8 +94,7 @@ pub unsafe extern "C" fn pp_particle_rounding_radius(particle: *const pp_particl
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_sphericity(particle: *const pp_particle, k: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, k, |particle| particle.0.sphericity()) }
+    give!(k, [particle], Ok(particle.sphericity()))
 }
 
 /// Radius R of the shadow sphere as given to pp_particle_new, length.
@@ -109,8 +102,7 @@ pub unsafe extern "C" fn pp_particle_sphericity(particle: *const pp_particle, k:
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_shadow_radius(particle: *const pp_particle, shadow_radius: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, shadow_radius, |particle| particle.0.shadow_radius()) }
+    give!(shadow_radius, [particle], Ok(particle.shadow_radius()))
 }
 
 /// Planes as given to pp_particle_new, without those that are one with an earlier one: rows of a, b, c, d,
@@ -127,12 +119,11 @@ pub unsafe extern "C" fn pp_particle_planes(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let rows = particle.planes().map(|Plane { normal: n, offset }| [n.x, n.y, n.z, offset]);
-        // SAFETY: the caller promised 4*capacity doubles.
-        unsafe { write_rows(rows, planes, capacity, count) }
-    })
+    give!(
+        (planes, capacity, count),
+        [particle],
+        Ok(particle.planes().map(|Plane { normal: n, offset }| [n.x, n.y, n.z, offset]))
+    )
 }
 
 impl Refusal for ParticleError {

@@ -1,30 +1,14 @@
 //! The contact patch.
 
-use super::convert::{contact_of, pose_from};
-use super::fence::{Output, borrow, check_room, fenced, output, outputs, read};
-use super::flat::{flat_contact_of, triangle_from};
+use super::fence::{call, give};
+use super::flat::triangle_of;
+use super::output::{IfWanted, Output, check_room, outputs};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::{Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, PatchState};
 use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use std::cell::RefCell;
-
-/// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
-/// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
-/// which the estimated error does not tell: the far side of a rod that goes through the other body.
-pub const PP_PATCH_FOLDED: u32 = 1;
-/// The tolerance was not reached, or is beyond what rounding allows where the bodies hardly touch; error tells
-/// how far off the answer may be.
-pub const PP_PATCH_TOLERANCE_NOT_REACHED: u32 = 2;
-/// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
-/// nearly): the patch is that of slightly rounder bodies.
-pub const PP_PATCH_DEEP: u32 = 4;
-/// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
-pub const PP_PATCH_EMPTY: u32 = 8;
-/// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): area and moments
-/// are those of that pose.
-pub const PP_PATCH_CARRIED: u32 = 16;
 
 /// The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
 /// both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
@@ -93,15 +77,6 @@ const _: () = assert!(
     size_of::<PatchState>() <= size_of::<pp_patch_state>() && align_of::<PatchState>() == align_of::<pp_patch_state>()
 );
 
-/// The state to use: none where points are wanted, which a patch that is carried on does not have.
-///
-/// # Safety
-/// `state` is NULL or exclusively ours for the call.
-pub(super) unsafe fn state_of<'a>(state: *mut pp_patch_state, capacity: usize) -> Option<&'a mut PatchState> {
-    // SAFETY: it holds as many bytes, all of them of numbers of which any value is one.
-    unsafe { state.cast::<PatchState>().as_mut() }.filter(|_| capacity == 0)
-}
-
 thread_local! {
     /// Buffers of the last patch of this thread.
     static SCRATCH: RefCell<PatchScratch> = RefCell::new(PatchScratch::new());
@@ -113,8 +88,7 @@ thread_local! {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_depth_length(particle: *const pp_particle, length: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, length, |particle| particle.0.depth_length()) }
+    give!(length, [particle], Ok(particle.depth_length()))
 }
 
 /// The patch of an overlapping contact of A with B.
@@ -142,18 +116,14 @@ pub unsafe extern "C" fn pp_patch_of_contact(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { contact_of(contact) }?;
+    call!([a, pose_a, b, pose_b, contact], {
         let settings = settings(tolerance, with_energy)?;
-        let out = unsafe { output(patch) }?;
-        let state = unsafe { state_of(state, capacity) };
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
+        let run = |scratch: &mut _, state: Option<&mut PatchState>, visit: &mut dyn FnMut(PatchPoint)| match state {
             Some(state) => state.patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch),
             None => patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit),
         };
-        unsafe { answer(run, &out, points, capacity, count) }
+        // SAFETY: as the caller has promised.
+        unsafe { answer(run, state, patch, (points, capacity, count)) }
     })
 }
 
@@ -175,17 +145,14 @@ pub unsafe extern "C" fn pp_patch_on_plane(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let contact = unsafe { flat_contact_of(contact) }?;
+    call!([a, pose_a, contact], {
         let settings = settings(tolerance, with_energy)?;
-        let out = unsafe { output(patch) }?;
-        let state = unsafe { state_of(state, capacity) };
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
-            Some(state) => state.patch_on_plane(a, &pose, contact, &settings, scratch),
-            None => patch_on_plane(a, &pose, contact, &settings, scratch, visit),
+        let run = |scratch: &mut _, state: Option<&mut PatchState>, visit: &mut dyn FnMut(PatchPoint)| match state {
+            Some(state) => state.patch_on_plane(a, &pose_a, contact, &settings, scratch),
+            None => patch_on_plane(a, &pose_a, contact, &settings, scratch, visit),
         };
-        unsafe { answer(run, &out, points, capacity, count) }
+        // SAFETY: as the caller has promised.
+        unsafe { answer(run, state, patch, (points, capacity, count)) }
     })
 }
 
@@ -213,90 +180,95 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let triangle = unsafe { triangle_from(vertices) }?;
-        let contact = unsafe { flat_contact_of(contact) }?;
+    call!([a, pose_a, vertices, contact], {
+        let (triangle, front) = (triangle_of(vertices)?, is_on(from_front)?);
         let settings = settings(tolerance, with_energy)?;
-        let front = is_on(from_front)?;
-        let out = unsafe { output(patch) }?;
-        let state = unsafe { state_of(state, capacity) };
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
-            Some(state) => state.patch_on_triangle(a, &pose, &triangle, front, contact, &settings, scratch),
-            None => patch_on_triangle(a, &pose, &triangle, front, contact, &settings, scratch, visit),
+        let run = |scratch: &mut _, state: Option<&mut PatchState>, visit: &mut dyn FnMut(PatchPoint)| match state {
+            Some(state) => state.patch_on_triangle(a, &pose_a, &triangle, front, contact, &settings, scratch),
+            None => patch_on_triangle(a, &pose_a, &triangle, front, contact, &settings, scratch, visit),
         };
-        unsafe { answer(run, &out, points, capacity, count) }
+        // SAFETY: as the caller has promised.
+        unsafe { answer(run, state, patch, (points, capacity, count)) }
     })
 }
 
-/// Runs with the scratch of this thread, and writes the answer and its points.
+/// A patch in space or in the plane, as it is written.
+pub(super) trait Answer {
+    type InC;
+    fn points(&self) -> usize;
+    fn in_c(&self) -> Self::InC;
+}
+
+/// Writes the patch that `run` finds with the scratch of this thread and with the state, unless points are wanted,
+/// which a patch that is carried on does not have; its points, and their number. One that has more points than there
+/// is room for is refused.
 ///
 /// # Safety
-/// As of [`with_points`].
-unsafe fn answer(
-    run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
-    out: &Output<pp_patch>,
-    points: *mut pp_patch_point,
-    capacity: usize,
-    count: *mut usize,
+/// `state` is NULL or exclusively ours for the call; points, if not NULL, is valid for writing `capacity` points, the
+/// others are NULL or valid for writing.
+pub(super) unsafe fn answer<Patch: Answer, Point>(
+    run: impl FnOnce(&mut PatchScratch, Option<&mut PatchState>, &mut dyn FnMut(Point)) -> Result<Patch, PatchError>,
+    state: *mut pp_patch_state,
+    out: *mut Patch::InC,
+    (points, capacity, count): (*mut Point, usize, *mut usize),
 ) -> Result<(), pp_status> {
-    let patch = unsafe { with_points(run, |patch| patch.points, points, capacity, count) }?;
-    out.write(patch_to(&patch));
+    check_room(out, 1)?;
+    check_room(points, capacity)?;
+    check_room(count, capacity)?;
+    // SAFETY: as promised; the state holds as many bytes, all of them of numbers of which any value is one.
+    let (state, places) = unsafe { (state.cast::<PatchState>().as_mut(), outputs(points, capacity)?) };
+    let mut places = places.iter_mut();
+    let mut visit = |point: Point| _ = places.next().map(|place| place.write(point));
+    let state = state.filter(|_| capacity == 0);
+    let patch = with_scratch(|scratch| run(scratch, state, &mut visit))?;
+    // SAFETY: checked, and as promised.
+    unsafe {
+        IfWanted(count).put(|| patch.points())?;
+        if capacity > 0 && patch.points() > capacity {
+            return Err(PP_BUFFER_TOO_SMALL);
+        }
+        out.write(patch.in_c());
+    }
     Ok(())
 }
 
-/// The patch that `run` finds with the scratch of this thread, in space or in the plane: its points are handed over,
-/// their number is written, and one that has more points than there is room for is refused.
-///
-/// # Safety
-/// points is NULL or valid for writing `capacity` points, `count` NULL or valid for writing.
-pub(super) unsafe fn with_points<Patch, Point>(
-    run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(Point)) -> Result<Patch, PatchError>,
-    number: impl Fn(&Patch) -> usize,
-    points: *mut Point,
-    capacity: usize,
-    count: *mut usize,
+/// What is found with the scratch of this thread.
+pub(super) fn with_scratch<Patch>(
+    run: impl FnOnce(&mut PatchScratch) -> Result<Patch, PatchError>,
 ) -> Result<Patch, pp_status> {
-    check_room(points, capacity)?;
-    let count = if capacity == 0 && count.is_null() { None } else { Some(unsafe { output(count) }?) };
-    let places = unsafe { outputs(points, capacity) }?;
-    let mut next = 0;
-    let mut visit = |point: Point| {
-        if let Some(place) = places.get_mut(next) {
-            place.write(point);
-        }
-        next += 1;
-    };
-    let patch = SCRATCH.with_borrow_mut(|scratch| run(scratch, &mut visit)).map_err(patch_status)?;
-    let needed = number(&patch);
-    if let Some(count) = count {
-        count.write(needed);
-    }
-    if capacity > 0 && needed > capacity { Err(PP_BUFFER_TOO_SMALL) } else { Ok(patch) }
+    SCRATCH.with_borrow_mut(run).map_err(patch_status)
 }
 
-fn patch_to(patch: &Patch) -> pp_patch {
-    let m = &patch.second_moment;
-    pp_patch {
-        flags: patch.flags.bits(),
-        rays: patch.rays as u32,
-        error: patch.error,
-        area_error: patch.area_error,
-        length: patch.length,
-        force: patch.force.into(),
-        torque: patch.torque.into(),
-        pressure_centre: patch.pressure_centre.into(),
-        branch_a: patch.branch_a.into(),
-        branch_b: patch.branch_b.into(),
-        couple: patch.couple,
-        area: patch.area,
-        centroid: patch.centroid.into(),
-        second_moment: [m.m11, m.m22, m.m33, m.m12, m.m23, m.m31],
-        polar_moment: patch.polar_moment,
-        twist_lever: patch.twist_lever,
-        mean_depth: patch.mean_depth,
-        largest_depth: patch.largest_depth,
-        energy: patch.energy,
+impl Answer for Patch {
+    type InC = pp_patch;
+
+    fn points(&self) -> usize {
+        self.points
+    }
+
+    fn in_c(&self) -> pp_patch {
+        let m = &self.second_moment;
+        pp_patch {
+            flags: self.flags.bits(),
+            rays: self.rays as u32,
+            error: self.error,
+            area_error: self.area_error,
+            length: self.length,
+            force: self.force.into(),
+            torque: self.torque.into(),
+            pressure_centre: self.pressure_centre.into(),
+            branch_a: self.branch_a.into(),
+            branch_b: self.branch_b.into(),
+            couple: self.couple,
+            area: self.area,
+            centroid: self.centroid.into(),
+            second_moment: [m.m11, m.m22, m.m33, m.m12, m.m23, m.m31],
+            polar_moment: self.polar_moment,
+            twist_lever: self.twist_lever,
+            mean_depth: self.mean_depth,
+            largest_depth: self.largest_depth,
+            energy: self.energy,
+        }
     }
 }
 

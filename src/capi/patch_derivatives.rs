@@ -1,19 +1,15 @@
 //! Derivatives of the force and the torques of a contact patch.
 
-use super::convert::{contact_of, pose_from};
-use super::derivative::{boundary_from, rows};
-use super::fence::{Output, borrow, fenced, output};
-use super::flat::flat_contact_of;
+use super::derivative::rows;
+use super::fence::give;
+use super::flat::boundary_from;
 use super::particle::pp_particle;
-use super::patch::{is_on, settings, with_points};
+use super::patch::{is_on, settings, with_scratch};
 use super::status::*;
 use super::types::*;
-use crate::{
-    Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, patch_derivatives, patch_of_contact, patch_on_plane,
-    patch_on_triangle,
-};
+use crate::{Patch, PatchError, PatchPoint, PatchScratch, PatchSettings, patch_derivatives};
+use crate::{patch_of_contact, patch_on_plane, patch_on_triangle};
 use nalgebra::Vector3;
-use std::ptr;
 
 /// Derivatives of the force and the torques of a contact patch in the poses of A and B, over K, world axes;
 /// columns as of struct pp_derivatives. They are minus the second derivative of the energy.
@@ -43,13 +39,9 @@ pub unsafe extern "C" fn pp_patch_derivatives_of_contact(
     tolerance: f64,
     out: *mut pp_patch_derivatives,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { contact_of(contact) }?;
+    give!(out, [a, pose_a, b, pose_b, contact], {
         let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, 0)? };
-        let out = unsafe { output(out) }?;
-        write([contact.branch_a, contact.branch_b], &out, |scratch, visit| {
+        derivatives([contact.branch_a, contact.branch_b], |scratch, visit| {
             patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit)
         })
     })
@@ -72,30 +64,26 @@ pub unsafe extern "C" fn pp_patch_derivatives_on_boundary(
     tolerance: f64,
     out: *mut pp_patch_derivatives,
 ) -> pp_status {
-    fenced(|| {
-        let (a, pose) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
+    give!(out, [a, pose_a, contact], {
+        // SAFETY: as the caller has promised.
         let (triangle, front) = (unsafe { boundary_from(vertices) }?, is_on(from_front)?);
-        let contact = unsafe { flat_contact_of(contact) }?;
         let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, 0)? };
-        let out = unsafe { output(out) }?;
-        write([contact.on_boundary - pose.position(); 2], &out, |scratch, visit| match &triangle {
-            Some(triangle) => patch_on_triangle(a, &pose, triangle, front, contact, &settings, scratch, visit),
-            None => patch_on_plane(a, &pose, contact, &settings, scratch, visit),
+        derivatives([contact.on_boundary - pose_a.position(); 2], |scratch, visit| match &triangle {
+            Some(triangle) => patch_on_triangle(a, &pose_a, triangle, front, contact, &settings, scratch, visit),
+            None => patch_on_plane(a, &pose_a, contact, &settings, scratch, visit),
         })
     })
 }
 
-fn write(
+fn derivatives(
     to_point: [Vector3<f64>; 2],
-    out: &Output<pp_patch_derivatives>,
     run: impl FnOnce(&mut PatchScratch, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
-) -> Result<(), pp_status> {
-    let patch = unsafe { with_points(run, |patch: &Patch| patch.points, ptr::null_mut(), 0, ptr::null_mut()) }?;
+) -> Result<pp_patch_derivatives, pp_status> {
+    let patch = with_scratch(|scratch| run(scratch, &mut |_| ()))?;
     let found = patch_derivatives(&patch, to_point).ok_or(PP_NO_DERIVATIVE)?;
-    out.write(pp_patch_derivatives {
+    Ok(pp_patch_derivatives {
         force: rows(&found.force),
         torque_on_a: rows(&found.torque_on_a),
         torque_on_b: rows(&found.torque_on_b),
-    });
-    Ok(())
+    })
 }

@@ -1,21 +1,26 @@
 //! Sharp convex bodies over the C boundary: from half-spaces, points or a surface to faces, corners and triangles, and
 //! from there to a particle.
 
-use super::builder::{create_shape, pp_built};
-use super::convert::planes_from;
-use super::fence::{array, borrow, fenced, output, release, write_all, write_rows};
-use super::message::{Refusal, create, explained};
+use super::argument::{Argument, objects};
+use super::builder::{built_from, pp_built};
+use super::convert::{finite, planes_of};
+use super::fence::give;
+use super::message::{Refusal, explain};
+use super::output::{IfWanted, New, release};
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::pp_mass_properties;
 use crate::Plane;
-use crate::particle::mass_properties::{LEAST_TOLERANCE, MassProperties};
-use crate::shapes::{self, Rounding, Shape, ShapeError, SharpBody};
+use crate::particle::error::ToleranceError;
+use crate::particle::mass_properties::MassProperties;
+use crate::shapes::{self, Rounding, Shape, SharpBody};
 use nalgebra::Matrix3;
 use std::ffi::c_char;
 
 /// A sharp convex body. Released by pp_polyhedron_free; immutable.
 pub struct pp_polyhedron(SharpBody);
+
+objects! { pp_polyhedron => &'a SharpBody, |polyhedron| Ok(&polyhedron.0); }
 
 /// The body between planes: count rows of a, b, c, h, (a, b, c) of any length; inside is a x + b y + c z <= h.
 ///
@@ -34,12 +39,9 @@ pub unsafe extern "C" fn pp_polyhedron_from_faces(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        // SAFETY: the caller promised 4*count doubles.
-        Ok(SharpBody::of_planes(&unsafe { planes_from(planes, count) }?))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { make_polyhedron(make, out, message, message_size) }
+    explain!(message[message_size], "out", New(out), [planes[count]], {
+        Ok(pp_polyhedron(SharpBody::of_planes(&planes_of(planes))?))
+    })
 }
 
 /// The convex hull of points: count rows of x, y, z, in any order; those inside the hull do not matter.
@@ -58,13 +60,9 @@ pub unsafe extern "C" fn pp_polyhedron_from_points(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        // SAFETY: the caller promised 3*count doubles.
-        let points = unsafe { array(points.cast::<[f64; 3]>(), count) }?;
-        Ok(SharpBody::of_points(points, known))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { make_polyhedron(make, out, message, message_size) }
+    explain!(message[message_size], "out", New(out), [points[count]], {
+        Ok(pp_polyhedron(SharpBody::of_points(points, known)?))
+    })
 }
 
 /// The body within a closed convex surface: triangles of three numbers of points each, from 0, in any sense of
@@ -86,14 +84,9 @@ pub unsafe extern "C" fn pp_polyhedron_from_surface(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        // SAFETY: the caller promised 3*count doubles and 3*triangle_count integers.
-        let points = unsafe { array(points.cast::<[f64; 3]>(), count) }?;
-        let triangles = unsafe { array(triangles.cast::<[u32; 3]>(), triangle_count) }?;
-        Ok(SharpBody::of_surface(points, triangles, known))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { make_polyhedron(make, out, message, message_size) }
+    explain!(message[message_size], "out", New(out), [points[count], triangles[triangle_count]], {
+        Ok(pp_polyhedron(SharpBody::of_surface(points, triangles, known)?))
+    })
 }
 
 /// A regular prism, frustum or pyramid along z from -height/2 to height/2, the first side towards x.
@@ -112,9 +105,9 @@ pub unsafe extern "C" fn pp_polyhedron_prism(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || Ok(shapes::sharp_frustum(sides, radius, top_radius, height));
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { make_polyhedron(make, out, message, message_size) }
+    explain!(message[message_size], "out", New(out), [], {
+        Ok(pp_polyhedron(shapes::sharp_frustum(sides, radius, top_radius, height)?))
+    })
 }
 
 /// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
@@ -130,9 +123,7 @@ pub unsafe extern "C" fn pp_polyhedron_regular_solid(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || Ok(shapes::sharp_regular_solid(faces, edge));
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { make_polyhedron(make, out, message, message_size) }
+    explain!(message[message_size], "out", New(out), [], Ok(pp_polyhedron(shapes::sharp_regular_solid(faces, edge)?)))
 }
 
 /// Releases a polyhedron; NULL is allowed and does nothing.
@@ -157,11 +148,9 @@ pub unsafe extern "C" fn pp_polyhedron_faces(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let body = &unsafe { borrow(polyhedron) }?.0;
-        let rows = body.planes.iter().map(|Plane { normal: n, offset }| [n.x, n.y, n.z, offset + n.dot(&body.origin)]);
-        // SAFETY: the caller promised 4*capacity doubles.
-        unsafe { write_rows(rows, planes, capacity, count) }
+    give!((planes, capacity, count), [polyhedron], {
+        let row = |Plane { normal: n, offset }: &Plane| [n.x, n.y, n.z, offset + n.dot(&polyhedron.origin)];
+        Ok(polyhedron.planes.iter().map(row))
     })
 }
 
@@ -176,12 +165,11 @@ pub unsafe extern "C" fn pp_polyhedron_corners(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let body = &unsafe { borrow(polyhedron) }?.0;
-        let rows = body.corners.iter().map(|corner| (corner + body.origin).into());
-        // SAFETY: the caller promised 3*capacity doubles.
-        unsafe { write_rows(rows, corners, capacity, count) }
-    })
+    give!(
+        (corners, capacity, count),
+        [polyhedron],
+        Ok(polyhedron.corners.iter().map(|corner| corner + polyhedron.origin))
+    )
 }
 
 /// The surface as triangles: rows of three numbers of corners, from 0, counter-clockwise from outside. Those of
@@ -196,11 +184,7 @@ pub unsafe extern "C" fn pp_polyhedron_triangles(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let body = &unsafe { borrow(polyhedron) }?.0;
-        // SAFETY: the caller promised 3*capacity integers.
-        unsafe { write_all(body.triangles.iter().copied(), triangles.cast::<[u32; 3]>(), capacity, count) }
-    })
+    give!((triangles, capacity, count), [polyhedron], Ok(polyhedron.triangles.iter().copied()))
 }
 
 /// Of the sharp body: volume and centroid, and the inertia about its centroid, axes of its frame; the error is
@@ -214,16 +198,13 @@ pub unsafe extern "C" fn pp_polyhedron_properties(
     properties: *mut pp_mass_properties,
     size: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let body = &unsafe { borrow(polyhedron) }?.0;
-        let out = unsafe { output(properties) }?;
-        if let Ok(size) = unsafe { output(size) } {
-            size.write(body.size().map_err(|error| error.status())?);
-        }
+    give!((properties, IfWanted(size)), [polyhedron], {
+        let body: &SharpBody = polyhedron;
+        // Rounding may leave no ball.
+        let width = if size.is_null() { f64::NAN } else { body.size().map_err(|error| error.status())? };
         let centroid = body.centroid + body.origin;
         let mass = MassProperties { volume: body.volume, centroid, inertia: body.inertia(), error: 0.0 };
-        out.write((&mass).into());
-        Ok(())
+        Ok((pp_mass_properties::from(&mass), move || width))
     })
 }
 
@@ -250,17 +231,12 @@ pub unsafe extern "C" fn pp_particle_from_polyhedron(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let body = &unsafe { borrow(polyhedron) }?.0;
-        if !(LEAST_TOLERANCE..=1.0).contains(&tolerance) {
-            return Err(PP_BAD_SETTING);
-        }
+    explain!(message[message_size], "out", (New(out), IfWanted(built)), [polyhedron], {
+        ToleranceError::refuse_relative(tolerance)?;
         let rounding = Rounding::of_radius(r, k);
         let rounding = if shadow_radius == 0.0 { rounding } else { rounding.with_shadow_radius(shadow_radius) };
-        Ok(Shape::of_body(body, &rounding, tolerance))
-    };
-    // SAFETY: out, built and message are the caller's, as promised.
-    unsafe { create_shape(make, "polyhedron and out must not be NULL", out, built, message, message_size) }
+        Ok(built_from(Shape::of_body(polyhedron, &rounding, tolerance)?))
+    })
 }
 
 /// Whether triangles, three numbers of points each, from 0, are a closed surface: each edge joins two of them.
@@ -279,14 +255,9 @@ pub unsafe extern "C" fn pp_surface_is_closed(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let check = || {
-        // SAFETY: the caller promised 3*count doubles and 3*triangle_count integers.
-        let points = unsafe { array(points.cast::<[f64; 3]>(), count) }?;
-        let triangles = unsafe { array(triangles.cast::<[u32; 3]>(), triangle_count) }?;
-        Ok(shapes::refuse_open(points, triangles))
-    };
-    // SAFETY: message is the caller's, as promised.
-    unsafe { explained(check, "points and triangles must not be NULL", message, message_size) }
+    explain!(message[message_size], "", (), [points[count], triangles[triangle_count]], {
+        Ok(shapes::refuse_open(points, triangles)?)
+    })
 }
 
 /// Principal axes of a matrix of inertia, axis i the one nearest to axis i of its frame.
@@ -298,26 +269,14 @@ pub unsafe extern "C" fn pp_surface_is_closed(
 /// Pointers: inertia points to 6 doubles, orientation to 4.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_principal_axes(inertia: *const f64, orientation: *mut f64) -> pp_status {
-    fenced(|| {
-        let [xx, yy, zz, xy, yz, zx] = *unsafe { borrow(inertia.cast::<[f64; 6]>()) }?;
-        let out = unsafe { output(orientation.cast::<[f64; 4]>()) }?;
-        if ![xx, yy, zz, xy, yz, zx].iter().all(|one| one.is_finite()) {
-            return Err(PP_BAD_POINT);
-        }
-        out.write(shapes::principal_orientation(&Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)).1);
-        Ok(())
+    give!(orientation, [inertia], {
+        let [[xx, yy, zz, xy, yz, zx]] = finite(inertia)?.data.0;
+        Ok(shapes::principal_orientation(&Matrix3::new(xx, xy, zx, xy, yy, yz, zx, yz, zz)).1)
     })
 }
 
-/// [`create`] of a polyhedron.
-/// Pointers: as of that.
-unsafe fn make_polyhedron(
-    make: impl FnOnce() -> Result<Result<SharpBody, ShapeError>, pp_status>,
-    out: *mut *mut pp_polyhedron,
-    message: *mut c_char,
-    message_size: usize,
-) -> pp_status {
-    let polyhedron = || Ok(make()?.map(pp_polyhedron));
-    // SAFETY: by contract.
-    unsafe { create(polyhedron, "the input and out must not be NULL", out, message, message_size) }
+impl Refusal for ToleranceError {
+    fn status(&self) -> pp_status {
+        PP_BAD_SETTING
+    }
 }

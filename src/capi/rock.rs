@@ -1,12 +1,13 @@
 //! Rock masses over the C boundary: cut once, then read by the functions of `rock_arrays`.
 
-use super::convert::planes_from;
-use super::fence::{array, release};
-use super::message::create;
-use super::rock_joints::{joints_from, pp_joint};
+use super::argument::{Argument, objects, take};
+use super::convert::planes_of;
+use super::message::{Refused, explain};
+use super::output::{New, release};
+use super::rock_joints::{joints_from, pp_joint, sum_of};
 use super::status::*;
 use crate::Plane;
-use crate::rock::{Partners, RockError, RockMass, SliceSettings, slice_with_regions};
+use crate::rock::{Partners, RockMass, SliceSettings, slice_with_regions};
 use std::ffi::{c_char, c_void};
 
 /// Limits of a rock mass.
@@ -39,6 +40,8 @@ pub struct pp_rock {
     pub(super) mass: RockMass,
     pub(super) partners: Vec<Partners>,
 }
+
+objects! { pp_rock => &'a pp_rock, |rock| Ok(rock); }
 
 impl pp_rock {
     fn of(mass: RockMass) -> Self {
@@ -92,27 +95,30 @@ pub unsafe extern "C" fn pp_rock_new(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let domain = unsafe { planes_from(planes, plane_count) }?;
-        let joints = unsafe { joints_from(joints, joint_count, outlines, outline_counts) }?;
-        let counts = unsafe { array(region_counts, region_count) }?;
-        let sum = counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count)).ok_or(PP_BAD_INDEX)?;
-        let mut left = unsafe { planes_from(region_planes, sum) }?.into_iter();
-        let regions: Vec<Vec<Plane>> = counts.iter().map(|count| left.by_ref().take(*count).collect()).collect();
-        // SAFETY: NULL or the caller's.
-        let settings = settings_from(unsafe { settings.as_ref() });
-        let goes_on = |joints: usize, blocks: usize| match progress {
-            // SAFETY: the caller's function, with what it asks for.
-            Some(progress) => unsafe { progress(context, joints as u64, blocks as u64) == 0 },
-            None => true,
-        };
-        let (joints, settings) = match (joints, settings) {
-            (Ok(joints), Ok(settings)) => (joints, settings),
-            (Err(error), _) | (_, Err(error)) => return Ok(Err(error)),
-        };
-        Ok(slice_with_regions(&domain, &joints, &regions, &settings, goes_on).map(pp_rock::of))
+    let goes_on = |joints: usize, blocks: usize| match progress {
+        // SAFETY: the caller's function, with what it asks for.
+        Some(progress) => unsafe { progress(context, joints as u64, blocks as u64) == 0 },
+        None => true,
     };
-    unsafe { create(make, "planes, joints, regions and out must not be NULL", out, message, message_size) }
+    explain!(
+        message[message_size],
+        "out",
+        New(out),
+        [planes[plane_count], joints[joint_count], region_counts[region_count]],
+        {
+            // SAFETY: the caller promised as many corners.
+            let joints = unsafe { joints_from(joints, outlines, outline_counts) }?;
+            let sum = sum_of(region_counts)?;
+            let region_planes =
+                take!(region_planes[sum]).map_err(|status| Refused::argument(status, "region_planes"))?;
+            let mut left = planes_of(region_planes).into_iter();
+            let regions: Vec<Vec<Plane>> =
+                region_counts.iter().map(|count| left.by_ref().take(*count).collect()).collect();
+            // SAFETY: NULL or the caller's.
+            let settings = settings_of(unsafe { settings.as_ref() });
+            Ok(pp_rock::of(slice_with_regions(&planes_of(planes), &joints, &regions, &settings, goes_on)?))
+        }
+    )
 }
 
 /// Releases a rock mass; NULL is allowed and does nothing.
@@ -123,24 +129,19 @@ pub unsafe extern "C" fn pp_rock_free(rock: *mut pp_rock) {
     unsafe { release(rock) }
 }
 
-fn settings_from(settings: Option<&pp_slice_settings>) -> Result<SliceSettings, RockError> {
-    let Some(settings) = settings else { return Ok(SliceSettings::default()) };
-    let not_negative = |value: f64, name: &'static str| {
-        let is_fine = value >= 0.0 && value.is_finite();
-        if is_fine { Ok(value) } else { Err(RockError::OutOfRange { name, value, range: "0 or above" }) }
-    };
-    Ok(SliceSettings {
-        least_volume: not_negative(settings.least_volume, "least_volume")?,
-        least_thickness: not_negative(settings.least_thickness, "least_thickness")?,
-        least_width: not_negative(settings.least_width, "least_width")?,
-        largest_aspect: match not_negative(settings.largest_aspect, "largest_aspect")? {
-            0.0 => f64::INFINITY,
-            aspect => aspect,
+fn settings_of(settings: Option<&pp_slice_settings>) -> SliceSettings {
+    let Some(settings) = settings else { return SliceSettings::default() };
+    let whole = |number: u64| usize::try_from(number).unwrap_or(usize::MAX);
+    SliceSettings {
+        least_volume: settings.least_volume,
+        least_thickness: settings.least_thickness,
+        least_width: settings.least_width,
+        largest_aspect: if settings.largest_aspect == 0.0 { f64::INFINITY } else { settings.largest_aspect },
+        threads: whole(settings.threads),
+        most_blocks: if settings.most_blocks == 0 {
+            SliceSettings::default().most_blocks
+        } else {
+            whole(settings.most_blocks)
         },
-        threads: usize::try_from(settings.threads).unwrap_or(usize::MAX),
-        most_blocks: match settings.most_blocks {
-            0 => SliceSettings::default().most_blocks,
-            most => usize::try_from(most).unwrap_or(usize::MAX),
-        },
-    })
+    }
 }

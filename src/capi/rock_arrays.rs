@@ -1,10 +1,11 @@
 //! What was cut, over the C boundary: a rock mass read as arrays.
 
-use super::fence::{borrow, fenced, output, write_all, write_rows};
+use super::fence::give;
 use super::rock::pp_rock;
 use super::status::*;
 use crate::Plane;
-use crate::rock::FaceOf;
+use crate::rock::{FaceOf, Partners};
+use nalgebra::Vector3;
 
 /// A side of the domain.
 pub const PP_FACE_OF_DOMAIN: u32 = 0;
@@ -97,19 +98,18 @@ pub struct pp_face_partners {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_rock_get_summary(rock: *const pp_rock, summary: *mut pp_rock_summary) -> pp_status {
-    fenced(|| {
-        let rock = unsafe { borrow(rock) }?;
-        unsafe { output(summary) }?.write(pp_rock_summary {
-            blocks: rock.mass.blocks.len() as u64,
+    give!(summary, [rock], {
+        let mass = &rock.mass;
+        Ok(pp_rock_summary {
+            blocks: mass.blocks.len() as u64,
             faces: rock.face_count() as u64,
-            corners: rock.mass.blocks.iter().map(|block| block.corners.len() as u64).sum(),
+            corners: mass.blocks.iter().map(|block| block.corners.len() as u64).sum(),
             partners: rock.partners.len() as u64,
-            joints: rock.mass.joints as u64,
-            missing: rock.mass.missing.len() as u64,
-            too_small: rock.mass.too_small as u64,
-            unclosed: rock.mass.unclosed as u64,
-        });
-        Ok(())
+            joints: mass.joints as u64,
+            missing: mass.missing.len() as u64,
+            too_small: mass.too_small as u64,
+            unclosed: mass.unclosed as u64,
+        })
     })
 }
 
@@ -125,9 +125,8 @@ pub unsafe extern "C" fn pp_rock_blocks(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let rock = unsafe { borrow(rock) }?;
-        let rows = rock.mass.blocks.iter().zip(rock.first_faces()).map(|(block, first)| {
+    give!((blocks, capacity, count), [rock], {
+        Ok(rock.mass.blocks.iter().zip(rock.first_faces()).map(|(block, first)| {
             let i = block.inertia();
             pp_block {
                 volume: block.volume,
@@ -138,8 +137,7 @@ pub unsafe extern "C" fn pp_rock_blocks(
                 parent: block.parent as u64,
                 region: block.region.map_or(-1, |region| region as i64),
             }
-        });
-        unsafe { write_all(rows, blocks, capacity, count) }
+        }))
     })
 }
 
@@ -155,8 +153,7 @@ pub unsafe extern "C" fn pp_rock_faces(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let rock = unsafe { borrow(rock) }?;
+    give!((faces, capacity, count), [rock], {
         let mut first_corner = 0;
         let mut rows = Vec::with_capacity(rock.face_count());
         for (number, block) in rock.mass.blocks.iter().enumerate() {
@@ -167,6 +164,7 @@ pub unsafe extern "C" fn pp_rock_faces(
                     FaceOf::Region { region, plane } => (PP_FACE_OF_REGION, region, plane),
                 };
                 let Plane { normal: n, offset } = face.plane;
+                let corner_count = block.corners_of(face).len() as u64;
                 rows.push(pp_block_face {
                     of,
                     // Fewer regions than 2^32 fit into memory.
@@ -176,13 +174,13 @@ pub unsafe extern "C" fn pp_rock_faces(
                     area: face.area,
                     jointed_area: face.jointed_area,
                     first_corner,
-                    corner_count: block.corners_of(face).len() as u64,
+                    corner_count,
                     block: number as u64,
                 });
-                first_corner += block.corners_of(face).len() as u64;
+                first_corner += corner_count;
             }
         }
-        unsafe { write_all(rows.into_iter(), faces, capacity, count) }
+        Ok(rows.into_iter())
     })
 }
 
@@ -199,10 +197,9 @@ pub unsafe extern "C" fn pp_rock_corners(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let blocks = unsafe { borrow(rock) }?.mass.blocks.iter();
-        let rows: Vec<[f64; 3]> = blocks.flat_map(|block| &block.corners).map(|at| (*at).into()).collect();
-        unsafe { write_rows(rows.into_iter(), corners, capacity, count) }
+    give!((corners, capacity, count), [rock], {
+        let corners: Vec<Vector3<f64>> = rock.mass.blocks.iter().flat_map(|block| &block.corners).copied().collect();
+        Ok(corners.into_iter())
     })
 }
 
@@ -218,14 +215,13 @@ pub unsafe extern "C" fn pp_rock_partners(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let rock = unsafe { borrow(rock) }?;
+    give!((partners, capacity, count), [rock], {
         let first = rock.first_faces();
-        let rows = rock.partners.iter().map(|pair| pp_face_partners {
-            faces: pair.faces.map(|[block, face]| (first[block] + face) as u64),
-            area: pair.area,
-        });
-        unsafe { write_all(rows, partners, capacity, count) }
+        let row = move |pair: &Partners| {
+            let faces = pair.faces.map(|[block, face]| (first[block] + face) as u64);
+            pp_face_partners { faces, area: pair.area }
+        };
+        Ok(rock.partners.iter().map(row))
     })
 }
 
@@ -241,8 +237,5 @@ pub unsafe extern "C" fn pp_rock_missing_joints(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let rock = unsafe { borrow(rock) }?;
-        unsafe { write_all(rock.mass.missing.iter().map(|joint| *joint as u64), joints, capacity, count) }
-    })
+    give!((joints, capacity, count), [rock], Ok(rock.mass.missing.iter().map(|joint| *joint as u64)))
 }

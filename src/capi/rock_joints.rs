@@ -1,7 +1,7 @@
 //! Joints over the C boundary.
 
-use super::fence::{array, borrow, output, write_all};
-use super::message::{Refusal, explained};
+use super::argument::{Argument, objects, take};
+use super::message::{Refusal, Refused, explain};
 use super::status::*;
 use crate::rock::{Joint, JointSet, RockError};
 use std::ffi::c_char;
@@ -59,15 +59,11 @@ pub unsafe extern "C" fn pp_joint_from_dip(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let point = *unsafe { borrow(point.cast::<[f64; 3]>()) }?;
-        let out = unsafe { output(out) }?;
-        let joint = Joint::new(point, dip, dip_direction);
+    explain!(message[message_size], "out", out, [point], {
+        let joint = Joint::new(*point, dip, dip_direction)?;
         // with_radius is for joints that end.
-        let joint = if radius == f64::INFINITY { joint } else { joint.and_then(|joint| joint.with_radius(radius)) };
-        Ok(joint.map(|joint| out.write(joint_to(&joint))))
-    };
-    unsafe { explained(make, "point and joint must not be NULL", message, message_size) }
+        Ok(joint_to(&if radius == f64::INFINITY { joint } else { joint.with_radius(radius)? }))
+    })
 }
 
 /// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
@@ -84,12 +80,10 @@ pub unsafe extern "C" fn pp_joint_from_corners(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let corners = unsafe { array(corners.cast::<[f64; 3]>(), count) }?;
-        let out = unsafe { output(out) }?;
-        Ok(Joint::polygon(corners).map(|joint| out.write(joint_to(&joint))))
-    };
-    unsafe { explained(make, "corners and joint must not be NULL", message, message_size) }
+    explain!(message[message_size], "out", out, [corners[count]], {
+        let corners: &[[f64; 3]] = corners;
+        Ok(joint_to(&Joint::polygon(corners)?))
+    })
 }
 
 /// The joints of a set within reach of a point, both lengths: those that cross the line through it along
@@ -111,27 +105,9 @@ pub unsafe extern "C" fn pp_joint_set_joints(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        let set = unsafe { borrow(set) }?;
-        let centre = *unsafe { borrow(centre.cast::<[f64; 3]>()) }?;
-        let reserved_is_used = set.reserved != 0 || set.exponential > 1;
-        if reserved_is_used {
-            return Err(PP_BAD_SETTING);
-        }
-        let made = match set_from(set).joints(centre, reach) {
-            Ok(made) => made,
-            Err(error) => return Ok(Err(error)),
-        };
-        unsafe { write_all(made.iter().map(joint_to), joints, capacity, count) }.map(Ok)
-    };
-    unsafe {
-        explained(
-            make,
-            "set, centre and count, and joints of a capacity above 0, must not be NULL",
-            message,
-            message_size,
-        )
-    }
+    explain!(message[message_size], "joints and count", (joints, capacity, count), [set, centre], {
+        Ok(set.joints(*centre, reach)?.into_iter().map(|joint| joint_to(&joint)))
+    })
 }
 
 impl Refusal for RockError {
@@ -140,32 +116,37 @@ impl Refusal for RockError {
     }
 }
 
+/// How many rows all counts need.
+pub(super) fn sum_of(counts: &[usize]) -> Result<usize, pp_status> {
+    counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count)).ok_or(PP_BAD_INDEX)
+}
+
 /// Joints with their outlines.
-/// Pointers: as of pp_rock_new.
+///
+/// # Safety
+/// The pointers are as of pp_rock_new.
 pub(super) unsafe fn joints_from(
-    joints: *const pp_joint,
-    count: usize,
+    joints: &[pp_joint],
     outlines: *const f64,
     outline_counts: *const usize,
-) -> Result<Result<Vec<Joint>, RockError>, pp_status> {
-    let joints = unsafe { array(joints, count) }?;
+) -> Result<Vec<Joint>, Refused> {
     if outline_counts.is_null() {
-        return Ok(Ok(joints.iter().map(joint_from).collect()));
+        return Ok(joints.iter().map(joint_from).collect());
     }
-    let counts = unsafe { array(outline_counts, count) }?;
-    let sum = counts.iter().try_fold(0usize, |sum, count| sum.checked_add(*count)).ok_or(PP_BAD_INDEX)?;
-    let mut left = unsafe { array(outlines.cast::<[f64; 3]>(), sum) }?;
-    let mut made = Vec::with_capacity(count);
+    let joint_count = joints.len();
+    let counts: &[usize] = take!(outline_counts[joint_count])?;
+    let sum = sum_of(counts)?;
+    let mut left: &[[f64; 3]] = take!(outlines[sum]).map_err(|status| Refused::argument(status, "outlines"))?;
+    let mut made = Vec::with_capacity(joints.len());
     for (number, (joint, &count)) in joints.iter().zip(counts).enumerate() {
         let (corners, rest) = left.split_at(count);
         left = rest;
-        match if count == 0 { Ok(joint_from(joint)) } else { Joint::polygon(corners) } {
-            Ok(joint) => made.push(joint),
-            Err(RockError::NoPolygon(must)) => return Ok(Err(RockError::NoOutline { joint: number, must })),
-            Err(error) => return Ok(Err(error)),
-        }
+        made.push(match if count == 0 { Ok(joint_from(joint)) } else { Joint::polygon(corners) } {
+            Err(RockError::NoPolygon(must)) => Err(RockError::NoOutline { joint: number, must }),
+            made => made,
+        }?);
     }
-    Ok(Ok(made))
+    Ok(made)
 }
 
 fn joint_to(joint: &Joint) -> pp_joint {
@@ -176,8 +157,14 @@ fn joint_from(joint: &pp_joint) -> Joint {
     Joint { point: joint.point.into(), normal: joint.normal.into(), radius: joint.radius, outline: None }
 }
 
-fn set_from(set: &pp_joint_set) -> JointSet {
-    JointSet {
+objects! { pp_joint_set => JointSet, |set| set_from(set); }
+
+fn set_from(set: &pp_joint_set) -> Result<JointSet, pp_status> {
+    let reserved_is_used = set.reserved != 0 || set.exponential > 1;
+    if reserved_is_used {
+        return Err(PP_BAD_SETTING);
+    }
+    Ok(JointSet {
         dip: set.dip,
         dip_direction: set.dip_direction,
         spacing: set.spacing,
@@ -185,5 +172,5 @@ fn set_from(set: &pp_joint_set) -> JointSet {
         fisher: set.fisher,
         radius: set.radius,
         seed: set.seed,
-    }
+    })
 }

@@ -1,7 +1,8 @@
 //! What can be asked of a particle: potential, bounds, surface, mass.
 
-use super::convert::{finite, pose_from};
-use super::fence::{borrow, fenced, output, read, write_rows};
+use super::convert::finite;
+use super::fence::give;
+use super::output::IfWanted;
 use super::particle::pp_particle;
 use super::status::*;
 use super::types::{pp_mass_properties, pp_pose};
@@ -21,17 +22,9 @@ pub unsafe extern "C" fn pp_particle_potential(
     f: *mut f64,
     gradient: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let pose = pose_from(unsafe { borrow(pose) }?)?;
-        let point = finite(unsafe { borrow(point.cast::<[f64; 3]>()) }?)?;
-        let f = unsafe { output(f) }?;
-        let x = pose.to_local(&point);
-        f.write(particle.potential(&x));
-        if let Ok(gradient) = unsafe { output(gradient.cast::<[f64; 3]>()) } {
-            gradient.write(pose.rotate(&particle.gradient(&x)).into());
-        }
-        Ok(())
+    give!((f, IfWanted(gradient)), [particle, pose, point], {
+        let x = pose.to_local(&finite(point)?);
+        Ok((particle.potential(&x), move || pose.rotate(&particle.gradient(&x))))
     })
 }
 
@@ -48,15 +41,7 @@ pub unsafe extern "C" fn pp_particle_box(
     lower: *mut f64,
     upper: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let pose = pose_from(unsafe { borrow(pose) }?)?;
-        let (lower, upper) = unsafe { (output(lower.cast::<[f64; 3]>())?, output(upper.cast::<[f64; 3]>())?) };
-        let (low, high) = particle.bounding_box(&pose);
-        lower.write(low.into());
-        upper.write(high.into());
-        Ok(())
-    })
+    give!((lower, upper), [particle, pose], Ok(particle.bounding_box(&pose)))
 }
 
 /// Radius about the centre of a ball that holds the particle, length.
@@ -64,8 +49,7 @@ pub unsafe extern "C" fn pp_particle_box(
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_bounding_radius(particle: *const pp_particle, radius: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, radius, |particle| particle.0.bounding_radius()) }
+    give!(radius, [particle], Ok(particle.bounding_radius()))
 }
 
 /// Whether the planes alone enclose a volume: 1, or 0 where only the shadow sphere bounds the particle,
@@ -75,8 +59,7 @@ pub unsafe extern "C" fn pp_particle_bounding_radius(particle: *const pp_particl
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_planes_enclose(particle: *const pp_particle, enclose: *mut i32) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, enclose, |particle| particle.0.planes_enclose().into()) }
+    give!(enclose, [particle], Ok(i32::from(particle.planes_enclose())))
 }
 
 /// Corners, local frame, of a polyhedron that holds the particle: rows of x, y, z.
@@ -92,12 +75,7 @@ pub unsafe extern "C" fn pp_particle_corners(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let rows = particle.bounding_corners().iter().map(|corner| (*corner).into());
-        // SAFETY: the caller promised 3*capacity doubles.
-        unsafe { write_rows(rows, corners, capacity, count) }
-    })
+    give!((corners, capacity, count), [particle], Ok(particle.bounding_corners().iter().copied()))
 }
 
 /// How far the particle reaches along a direction (3 doubles, local frame, any length): an upper bound of e .
@@ -112,13 +90,7 @@ pub unsafe extern "C" fn pp_particle_support(
     direction: *const f64,
     support: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let direction = unsafe { borrow(direction.cast::<[f64; 3]>()) }?;
-        let support = unsafe { output(support) }?;
-        support.write(particle.support(&(*direction).into()).ok_or(PP_BAD_POINT)?);
-        Ok(())
-    })
+    give!(support, [particle, direction], particle.support(&Vector3::from(*direction)).ok_or(PP_BAD_POINT))
 }
 
 /// Distance from the centre to the surface along a direction (3 doubles, local frame, any length).
@@ -132,12 +104,8 @@ pub unsafe extern "C" fn pp_particle_surface_distance(
     direction: *const f64,
     distance: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let direction = unsafe { borrow(direction.cast::<[f64; 3]>()) }?;
-        let distance = unsafe { output(distance) }?;
-        distance.write(particle.surface_distance(&Vector3::zeros(), &(*direction).into()).ok_or(PP_BAD_POINT)?);
-        Ok(())
+    give!(distance, [particle, direction], {
+        particle.surface_distance(&Vector3::zeros(), &Vector3::from(*direction)).ok_or(PP_BAD_POINT)
     })
 }
 
@@ -152,11 +120,8 @@ pub unsafe extern "C" fn pp_particle_mass_properties(
     tolerance: f64,
     properties: *mut pp_mass_properties,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let out = unsafe { output(properties) }?;
+    give!(properties, [particle], {
         let mass = particle.mass_properties(tolerance).map_err(|_| PP_BAD_SETTING)?;
-        out.write((&mass).into());
-        Ok(())
+        Ok(pp_mass_properties::from(&mass))
     })
 }

@@ -1,6 +1,7 @@
 //! The surface of a particle as a mesh.
 
-use super::fence::{borrow, check_room, fenced, output, outputs};
+use super::fence::call;
+use super::output::{Holds, IfWanted, Output, check_room, fill};
 use super::particle::pp_particle;
 use super::status::*;
 use crate::{MeshError, SurfaceMesh};
@@ -32,9 +33,9 @@ pub unsafe extern "C" fn pp_particle_mesh(
     triangle_count: *mut usize,
     error: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let (vertex_count, triangle_count) = unsafe { (output(vertex_count)?, output(triangle_count)?) };
+    call!([particle], {
+        check_room(vertex_count, 1)?;
+        check_room(triangle_count, 1)?;
         check_room(vertices, vertex_capacity)?;
         check_room(triangles, triangle_capacity)?;
         let mesh = SurfaceMesh::of(particle, tolerance).map_err(|error| match error {
@@ -43,20 +44,15 @@ pub unsafe extern "C" fn pp_particle_mesh(
         })?;
         let (points, faces) = (mesh.vertices.len(), mesh.triangles.len());
         let fits = points <= vertex_capacity && faces <= triangle_capacity;
-        if fits {
-            // SAFETY: the caller promised 3*vertex_capacity doubles each and 3*triangle_capacity integers.
-            let vertices = unsafe { outputs(vertices.cast::<[f64; 3]>(), points) }?;
-            let triangles = unsafe { outputs(triangles.cast::<[u32; 3]>(), faces) }?;
-            let wanted = if normals.is_null() { 0 } else { points };
-            let normals = unsafe { outputs(normals.cast::<[f64; 3]>(), wanted) }?;
-            vertices.iter_mut().zip(&mesh.vertices).for_each(|(place, vertex)| _ = place.write((*vertex).into()));
-            normals.iter_mut().zip(&mesh.normals).for_each(|(place, normal)| _ = place.write((*normal).into()));
-            triangles.iter_mut().zip(&mesh.triangles).for_each(|(place, triangle)| _ = place.write(*triangle));
-        }
-        vertex_count.write(points);
-        triangle_count.write(faces);
-        if let Ok(error) = unsafe { output(error) } {
-            error.write(mesh.error);
+        // SAFETY: checked, and the caller promised 3*vertex_capacity doubles each and 3*triangle_capacity integers.
+        unsafe {
+            if fits {
+                fill(vertices.place(), points, mesh.vertices)?;
+                fill(normals.place(), if normals.is_null() { 0 } else { points }, mesh.normals)?;
+                fill(triangles.place(), faces, mesh.triangles)?;
+            }
+            (vertex_count, triangle_count).put((points, faces))?;
+            IfWanted(error).put(|| mesh.error)?;
         }
         if fits { Ok(()) } else { Err(PP_BUFFER_TOO_SMALL) }
     })

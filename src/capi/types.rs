@@ -16,41 +16,6 @@ pub const PP_SEPARATED: i32 = 1;
 /// The two particles overlap: s < 1.
 pub const PP_OVERLAPPING: i32 = 2;
 
-/// "closest" was asked for and has no answer: the centre (for k = 0, the core) of one particle lies inside
-/// the other, or may do so within rounding, and |P1 - P2| is no overlap then. All fields are those of midway.
-pub const PP_FLAG_SLACK: u32 = 1;
-/// Separation was proved without solving to the end: s is a proved lower bound >= 1; of the geometry only
-/// distance is set.
-pub const PP_FLAG_REJECTED: u32 = 2;
-/// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
-/// the one given is the line of centres, or the x axis of B.
-pub const PP_FLAG_NORMAL_BY_CENTRES: u32 = 4;
-/// Started from the solution that the pair remembers (struct pp_pair_state).
-pub const PP_FLAG_WARM: u32 = 8;
-/// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
-pub const PP_FLAG_EXTENDED: u32 = 16;
-/// Carried on from the last contact, without a solution from the planes (carry_tolerance); with
-/// PP_FLAG_REJECTED from where the pair was last solved apart.
-pub const PP_FLAG_CARRIED: u32 = 32;
-/// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
-pub const PP_FLAG_ROUNDING_LIMITED: u32 = 64;
-/// Rejected by balls: two that hold the particles do not meet.
-pub const PP_FLAG_BY_SPHERES: u32 = 128;
-/// Rejected by a face: one particle lies beyond a face of the other.
-pub const PP_FLAG_BY_FACE: u32 = 256;
-/// Rejected from memory: what separated the pair at the last call still does.
-pub const PP_FLAG_BY_MEMORY: u32 = 512;
-/// flat_regularisation was raised, and its default value was used in this call instead: the raised one
-/// would have left open whether the particles overlap.
-pub const PP_FLAG_DEFAULT_REGULARISATION: u32 = 1024;
-/// The gradient vanishes on a flat boundary, as when the centre of the particle lies on it: the normal is the
-/// boundary's own.
-pub const PP_FLAG_NORMAL_BY_BOUNDARY: u32 = 2048;
-/// Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
-/// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
-/// midway's overlap is.
-pub const PP_FLAG_FREE: u32 = 4096;
-
 /// pp_closest_point: the point P1 on A, where s_B is least.
 pub const PP_ON_A: u32 = 0;
 /// pp_closest_point: the point P2 on B, where s_A is least.
@@ -65,37 +30,6 @@ pub struct pp_pose {
     /// Quaternion w, x, y, z, local to world. Normalised by the library; any length in
     /// [1e-150, 1e150] will do.
     pub orientation: [f64; 4],
-}
-
-/// How to solve. Fill with pp_settings_default, then change what you need; a NULL pointer in
-/// place of a pp_settings means the defaults.
-#[repr(C)]
-#[derive(Clone, Copy, Debug)]
-pub struct pp_settings {
-    /// PP_MIDWAY (default) or PP_CLOSEST.
-    pub formulation: u32,
-    /// PP_FAST (default) or PP_CONE_PROGRAM.
-    pub back_end: u32,
-    /// 0 (default): a separated pair may be answered by a proof of separation alone
-    /// (PP_FLAG_REJECTED). 1: always solve, so that s, point and normal are set.
-    pub solve_separated: u32,
-    /// Must be 0.
-    pub reserved: u32,
-    /// Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12.
-    pub gap_tolerance: f64,
-    /// Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2,
-    /// in [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
-    pub weight_on_a: f64,
-    /// Where k is below this, the contact point on a flat face is chosen as if k were this value; shape, s
-    /// and overlap stay those of the given k. In [0, 0.1], default 1e-13; smaller values count as 1e-13.
-    /// Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides whether
-    /// particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
-    pub flat_regularisation: f64,
-    /// 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    /// pair and not solved (PP_FLAG_CARRIED), as long as its point is known to this share of the
-    /// smaller bounding radius. In [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
-    /// PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
-    pub carry_tolerance: f64,
 }
 
 /// What one ordered pair (A, B), or a particle A and a flat boundary, keeps from call to call.
@@ -114,6 +48,8 @@ pub struct pp_pair_state {
 }
 
 /// The structs of the library itself, of which tests/header.rs writes those of the header.
+/// cbindgen:ignore
+pub type pp_settings = crate::Settings;
 /// cbindgen:ignore
 pub type pp_contact = crate::Contact;
 /// cbindgen:ignore

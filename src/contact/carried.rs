@@ -446,7 +446,7 @@ impl PairState {
         settings: &Settings,
         last: Remembered,
     ) -> Option<Contact> {
-        if settings.solve_separated {
+        if settings.solve_separated() {
             return None;
         }
         let pair = Pair::new(a.0, a.1, b.0, b.1);

@@ -107,7 +107,7 @@ fn anew<'o>(
     out: &'o mut MaybeUninit<Contact>,
 ) -> Result<&'o mut Contact, DetectError> {
     let last = state.as_deref().and_then(|state| state.remembered(a, b));
-    let known = last.filter(|last| last.how != How::Overlapping && !settings.solve_separated);
+    let known = last.filter(|last| last.how != How::Overlapping && !settings.solve_separated());
     if let Some(proof) = known.and_then(|last| still_apart(a, b, &last)) {
         return Ok(out.write(rejected(settings, proof)));
     }
@@ -132,7 +132,7 @@ fn still_apart(a: (&Particle, &Pose), b: (&Particle, &Pose), last: &Remembered) 
 #[inline(always)]
 fn separated(pair: &Pair, settings: &Settings, overlapped: bool) -> Option<Apart> {
     match overlapped {
-        _ if settings.solve_separated => None,
+        _ if settings.solve_separated() => None,
         true => separation::balls_apart(pair),
         false => separation::proof_of_separation(pair),
     }
@@ -158,7 +158,7 @@ fn solved(
     let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
     // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are
     // closer than planes can tell.
-    let last = last.filter(|last| last.how != How::Balanced || settings.solve_separated || !call.is_sharp());
+    let last = last.filter(|last| last.how != How::Balanced || settings.solve_separated() || !call.is_sharp());
     let start = match last {
         Some(last) => {
             if settings.back_end == BackEnd::Fast {
@@ -169,7 +169,7 @@ fn solved(
         None => {
             let (start, apart) = call.cold_or_apart();
             if let Some((Apart { distance, .. }, planes)) =
-                apart.filter(|_| !settings.solve_separated && settings.back_end == BackEnd::Fast)
+                apart.filter(|_| !settings.solve_separated() && settings.back_end == BackEnd::Fast)
             {
                 let Start { x, lambda } = start;
                 remember(state, Remembered { x, lambda, how: How::Balanced, closest: planes });

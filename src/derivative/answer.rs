@@ -119,18 +119,17 @@ impl ShapeGradient {
 pub struct DerivativeFlags(u32);
 
 impl DerivativeFlags {
-    /// A plane may be about to switch: whether it is active at the contact point, or at a surface point, is uncertain
-    /// within the bound on that point. The derivatives are those of the side on which it is inactive; that of s is the
-    /// same on both.
+    /// Whether a plane is active at the contact point, or at a surface point, is uncertain within the bound on that
+    /// point. The derivatives are those with the plane inactive; the derivative of s is the same either way.
     pub const SWITCHING: Self = Self(1);
-    /// Faces or edges (k = 0, or nearly) leave a direction across the normal free: in it the point, and with it all but
-    /// s, moves as the regularisation says ([`crate::Settings::flat_regularisation`]), by up to its inverse, and only
-    /// for motions of about its size. Raise it for derivatives of practical use.
+    /// Flat faces or edges touch (k = 0, or nearly): along them flat_regularisation alone holds the point, whose
+    /// derivatives may be as large as 1/flat_regularisation, and hold for motions of about its size only. Raise it
+    /// for derivatives of practical use.
     pub const FREE: Self = Self(2);
-    /// The contact is separated: overlap and surface points have no derivatives, and are NaN here as they are there.
+    /// The contact is separated: overlap and surface points have no derivatives, and are NaN.
     pub const SEPARATED: Self = Self(4);
-    /// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a boundary,
-    /// by bodies whose r is 1e-11 of their size), or planes switch even in 32 digits.
+    /// Fewer than four digits may be right: depths of active planes are of the size of their rounding (at a
+    /// boundary, by bodies whose r is 1e-11 of their size), or planes switch even in 32 digits.
     pub const IMPRECISE: Self = Self(8);
 
     const NAMES: [(Self, &'static str); 4] = [

@@ -1,5 +1,6 @@
 //! Why planes and parameters do not make a particle.
 
+use crate::particle::mass_properties::LEAST_TOLERANCE;
 use crate::particle::plane::MAX_PLANES;
 use thiserror::Error;
 
@@ -83,7 +84,7 @@ pub struct ToleranceError {
 impl ToleranceError {
     /// A relative tolerance of a volume or an area, if it is one.
     pub(crate) fn refuse_relative(given: f64) -> Result<(), Self> {
-        if (1e-12..=1.0).contains(&given) { Ok(()) } else { Err(Self { given, range: "in [1e-12, 1]" }) }
+        if (LEAST_TOLERANCE..=1.0).contains(&given) { Ok(()) } else { Err(Self { given, range: "in [1e-12, 1]" }) }
     }
 
     /// A length, if it is one.

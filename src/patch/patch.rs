@@ -83,21 +83,21 @@ pub struct PatchPoint {
 pub struct PatchFlags(u32);
 
 impl PatchFlags {
-    /// Σ turns back under itself, as in deep overlaps of round bodies, or ends where no ray continues. What turns back
-    /// is part of the answer, but a part that no ray from the contact point reaches, as the far side of a rod through
-    /// the other body, may be missing: the estimated error does not show that.
+    /// The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
+    /// turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
+    /// which the estimated error does not tell: the far side of a rod that goes through the other body.
     pub const FOLDED: Self = Self(1);
-    /// The tolerance was not reached with the most rays (1500, or two million planes looked at in all of their cells),
-    /// or is beyond what rounding allows where bodies hardly touch (overlaps of 1e-11 of their size at 1e-4); the
-    /// estimated error tells how far off the answer is.
+    /// The tolerance was not reached with the most rays (1500, or two million planes looked at), or is beyond what
+    /// rounding allows where the bodies hardly touch (overlaps of 1e-11 of their size at 1e-4); error tells how far
+    /// off the answer may be.
     pub const TOLERANCE_NOT_REACHED: Self = Self(2);
-    /// The contact point lies in the core of both bodies, or the boundary reaches through that of A, so that
-    /// s is 0 or nearly: the answer is that for a slightly larger sphericity.
+    /// The contact point lies in the core of both bodies, or the boundary reaches through that of A (s is 0 or
+    /// nearly): the patch is that of slightly rounder bodies.
     pub const DEEP: Self = Self(4);
     /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
     pub const EMPTY: Self = Self(8);
-    /// It follows from that of an earlier pose by its stiffness ([`crate::PatchState`]): it has no points, and area and
-    /// moments are those of that pose.
+    /// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): it has no points,
+    /// and area and moments are those of that pose.
     pub const CARRIED: Self = Self(16);
 
     const NAMES: [(Self, &'static str); 5] = [

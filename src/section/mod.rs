@@ -62,6 +62,9 @@ impl From<&crate::Contact> for Section {
 }
 
 impl Section {
+    /// The relative tolerances of an area that the C interface and Python take.
+    pub const TOLERANCES: std::ops::RangeInclusive<f64> = 1e-12..=0.1;
+
     /// Area of the intersection of both particles with this plane, length².
     ///
     /// In closed form: measured against 40-digit areas it is right to 1e-12 of the area, or to ε·size/r where that is

@@ -222,7 +222,7 @@ impl<'a> Call<'a> {
         Goal {
             problem,
             tolerance: self.settings.gap_tolerance,
-            stop_when_separated: problem == Problem::Midway && !self.settings.solve_separated,
+            stop_when_separated: problem == Problem::Midway && !self.settings.solve_separated(),
         }
     }
 

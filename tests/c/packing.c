@@ -84,8 +84,9 @@ static void bad_arguments_hand_nothing_over(void) {
 #define PACK(shapes, count, sizes, rows, how, placed) \
     pp_pack(shapes, count, sizes, rows, how, placed, &all, why, sizeof why)
     CHECK_STATUS(PACK(NULL, 1, NULL, 0, &good, receive), PP_NULL_POINTER);
-    CHECK_TEXT(why, "shapes and each of them, sizes (unless size_count is 0), how and placed must not be NULL");
+    CHECK_TEXT(why, "shapes must not be NULL");
     CHECK_STATUS(PACK(none, 1, NULL, 0, &good, receive), PP_NULL_POINTER);
+    CHECK_TEXT(why, "each of shapes must not be NULL");
     CHECK_STATUS(PACK(shapes, 1, NULL, 1, &good, receive), PP_NULL_POINTER);
     CHECK_STATUS(PACK(shapes, 1, NULL, 0, NULL, receive), PP_NULL_POINTER);
     CHECK_STATUS(PACK(shapes, 1, NULL, 0, &good, NULL), PP_NULL_POINTER);

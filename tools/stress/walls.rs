@@ -70,8 +70,8 @@ pub struct Chosen {
 
 impl From<&Settings> for Chosen {
     fn from(s: &Settings) -> Self {
-        let Settings { gap_tolerance, flat_regularisation, solve_separated, .. } = *s;
-        Self { gap_tolerance, flat_regularisation, solve_separated }
+        let Settings { gap_tolerance, flat_regularisation, .. } = *s;
+        Self { gap_tolerance, flat_regularisation, solve_separated: s.solve_separated() }
     }
 }
 

@@ -1,10 +1,9 @@
-//! The contact of one pair of the plane, its length, and one closest point alone.
+//! The contacts of one pair of the plane and of many, its length, and one closest point alone.
 
-use super::convert::pose_from;
-use super::particle::pp_particle_2d;
-use super::types::pp_pose_2d;
-use crate::capi::convert::{contact_of, detect_status, role_from, settings_from, state_of};
-use crate::capi::fence::{borrow, fenced, output, place};
+use super::particle::{pp_particle_2d, pp_pose_2d};
+use crate::capi::batch::detect_batch;
+use crate::capi::convert::{detect_status, role_from};
+use crate::capi::fence::{call, give};
 use crate::capi::status::*;
 use crate::capi::types::{pp_closest_2d, pp_contact_2d, pp_pair_state, pp_settings};
 use crate::planar::{ClosestPoint, Contact, Particle, Pose, Section, closest_point, detect};
@@ -28,16 +27,8 @@ pub unsafe extern "C" fn pp_contact_detect_2d(
     state: *mut pp_pair_state,
     out: *mut pp_contact_2d,
 ) -> pp_status {
-    fenced(|| {
-        // One body after the other, as of a batch.
-        let (a, pose_a) = unsafe { (&borrow(a)?.0, pose_from(borrow(pose_a)?)?) };
-        let (b, pose_b) = unsafe { (&borrow(b)?.0, pose_from(borrow(pose_b)?)?) };
-        let out = unsafe { place(out) }?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        // SAFETY: NULL or exclusively ours for the call.
-        let state = unsafe { state.as_mut() }.map(state_of);
-        contact((a, &pose_a), (b, &pose_b), &settings, state, out)
-    })
+    // One body after the other, as of a batch.
+    call!([a, pose_a, b, pose_b, out, settings, state], contact((a, &pose_a), (b, &pose_b), settings, state, out))
 }
 
 /// Finds one contact and writes it.
@@ -48,9 +39,34 @@ pub(super) fn contact(
     state: Option<&mut PairState>,
     out: &mut MaybeUninit<Contact>,
 ) -> Result<(), pp_status> {
-    let found = detect(a.0, a.1, b.0, b.1, settings, state).map_err(|error| detect_status(&error))?;
+    let found = detect(a.0, a.1, b.0, b.1, settings, state).map_err(detect_status)?;
     out.write(found);
     Ok(())
+}
+
+/// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
+/// where every argument, status and error is explained.
+///
+/// Each contact and state is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
+/// the number of threads.
+/// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
+/// PP_BAD_INDEX (a count that no memory could hold).
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_contact_detect_batch_2d(
+    particles: *const *const pp_particle_2d,
+    poses: *const pp_pose_2d,
+    body_count: usize,
+    pairs: *const u32,
+    pair_count: usize,
+    settings: *const pp_settings,
+    threads: u32,
+    states: *mut pp_pair_state,
+    contacts: *mut pp_contact_2d,
+    statuses: *mut pp_status,
+) -> pp_status {
+    let bodies = (particles, poses, body_count);
+    // SAFETY: as the caller has promised.
+    unsafe { detect_batch(bodies, (pairs, pair_count), settings, threads, states, (contacts, statuses), contact) }
 }
 
 /// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
@@ -71,15 +87,9 @@ pub unsafe extern "C" fn pp_closest_point_2d(
     settings: *const pp_settings,
     out: *mut pp_closest_2d,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let out = unsafe { output(out) }?;
-        let on = role_from(on)?;
-        let settings = settings_from(unsafe { settings.as_ref() })?;
-        let found = closest_point(a, &pose_a, b, &pose_b, on, &settings).map_err(|error| detect_status(&error))?;
-        out.write(found.unwrap_or(ClosestPoint::UNKNOWN));
-        Ok(())
+    give!(out, [a, pose_a, b, pose_b, settings], {
+        let found = closest_point(a, &pose_a, b, &pose_b, role_from(on)?, settings).map_err(detect_status)?;
+        Ok(found.unwrap_or(ClosestPoint::UNKNOWN))
     })
 }
 
@@ -99,15 +109,10 @@ pub unsafe extern "C" fn pp_contact_length_2d(
     contact: *const pp_contact_2d,
     length: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { contact_of(contact) }?;
-        let out = unsafe { output(length) }?;
-        out.write(match contact.kind {
-            Kind::Overlapping => Section::from(contact).length(a, &pose_a, b, &pose_b).ok_or(PP_BAD_POINT)?,
-            Kind::Separated => 0.0,
-        });
-        Ok(())
+    give!(length, [a, pose_a, b, pose_b, contact], {
+        match contact.kind {
+            Kind::Overlapping => Section::from(contact).length(a, &pose_a, b, &pose_b).ok_or(PP_BAD_POINT),
+            Kind::Separated => Ok(0.0),
+        }
     })
 }

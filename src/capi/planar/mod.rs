@@ -1,16 +1,11 @@
 //! Particles of the plane over the C boundary.
 
-mod batch;
 mod contact;
-mod convert;
 mod particle;
 mod patch;
 mod shape;
-mod types;
 
-pub use batch::*;
 pub use contact::*;
 pub use particle::*;
 pub use patch::*;
 pub use shape::*;
-pub use types::*;

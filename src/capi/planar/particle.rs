@@ -1,16 +1,29 @@
 //! Creation and release of particles of the plane, and the definition that they were created from.
 
 use crate::ParticleError;
-use crate::capi::fence::{array, borrow, fenced, read, release, write_rows};
-use crate::capi::message::create;
+use crate::capi::argument::take;
+use crate::capi::fence::give;
+use crate::capi::message::{Refused, explain};
+use crate::capi::output::{New, release};
 use crate::capi::particle::PP_MAX_PLANES;
 use crate::capi::status::*;
 use crate::planar::{Line, Particle};
 use std::ffi::c_char;
 
+/// Where a body of the plane is: world = rotation(angle) * local + position.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_pose_2d {
+    /// Centre of the particle (origin of its local frame), world frame, length units of the caller.
+    pub position: [f64; 2],
+    /// Angle of the local axes in the world, radians, anticlockwise, from -2^30 to 2^30; beyond, take
+    /// whole turns off. It counts as exact.
+    pub angle: f64,
+}
+
 /// A validated particle of the plane. Created by pp_particle_new_2d, released by
 /// pp_particle_free_2d; immutable, so that bodies and threads may share one.
-pub struct pp_particle_2d(pub(super) Particle);
+pub struct pp_particle_2d(pub(in crate::capi) Particle);
 
 /// Creates a particle of the plane from count lines a x + b y = d.
 ///
@@ -37,17 +50,15 @@ pub unsafe extern "C" fn pp_particle_new_2d(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
+    explain!(message[message_size], "out", New(out), [], {
+        // Before they are looked at.
         if count > PP_MAX_PLANES {
-            return Ok(Err(ParticleError::TooManyLines(count)));
+            return Err(ParticleError::TooManyLines(count).into());
         }
-        // SAFETY: the caller promised 3*count doubles.
-        let rows = unsafe { array(lines.cast::<[f64; 3]>(), count) }?;
-        let lines: Vec<Line> = rows.iter().map(|&row| Line::from(row)).collect();
-        Ok(Particle::new(&lines, r, k, shadow_radius).map(pp_particle_2d))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { create(make, "lines and out must not be NULL", out, message, message_size) }
+        let lines: &[[f64; 3]] = take!(lines[count]).map_err(|status| Refused::argument(status, "lines"))?;
+        let lines: Vec<Line> = lines.iter().map(|&row| Line::from(row)).collect();
+        Ok(pp_particle_2d(Particle::new(&lines, r, k, shadow_radius)?))
+    })
 }
 
 /// Creates a particle of the plane from points whose convex hull is a polygon with rounded corners.
@@ -73,13 +84,13 @@ pub unsafe extern "C" fn pp_particle_new_polygon_2d(
     message: *mut c_char,
     message_size: usize,
 ) -> pp_status {
-    let make = || {
-        // SAFETY: the caller promised 2*count doubles.
-        let points = unsafe { array(points.cast::<[f64; 2]>(), count) }?;
-        Ok(Particle::polygon(points, r, k).map(pp_particle_2d))
-    };
-    // SAFETY: out and message are the caller's, as promised.
-    unsafe { create(make, "points and out must not be NULL", out, message, message_size) }
+    explain!(
+        message[message_size],
+        "out",
+        New(out),
+        [points[count]],
+        Ok(pp_particle_2d(Particle::polygon(points, r, k)?))
+    )
 }
 
 /// Releases a particle of the plane; NULL is allowed and does nothing. No call that uses it may still be
@@ -97,8 +108,7 @@ pub unsafe extern "C" fn pp_particle_free_2d(particle: *mut pp_particle_2d) {
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_rounding_radius_2d(particle: *const pp_particle_2d, r: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, r, |particle| particle.0.rounding_radius()) }
+    give!(r, [particle], Ok(particle.rounding_radius()))
 }
 
 /// Sphericity k as given, no unit.
@@ -106,8 +116,7 @@ pub unsafe extern "C" fn pp_particle_rounding_radius_2d(particle: *const pp_part
 /// Errors: PP_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_particle_sphericity_2d(particle: *const pp_particle_2d, k: *mut f64) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, k, |particle| particle.0.sphericity()) }
+    give!(k, [particle], Ok(particle.sphericity()))
 }
 
 /// Radius R of the shadow circle as given, or that through the outermost corner of a polygon, length.
@@ -118,8 +127,7 @@ pub unsafe extern "C" fn pp_particle_shadow_radius_2d(
     particle: *const pp_particle_2d,
     shadow_radius: *mut f64,
 ) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, shadow_radius, |particle| particle.0.shadow_radius()) }
+    give!(shadow_radius, [particle], Ok(particle.shadow_radius()))
 }
 
 /// Lines as given, or the sides of a polygon less r: rows of a, b, d, local frame.
@@ -135,10 +143,9 @@ pub unsafe extern "C" fn pp_particle_lines_2d(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let rows = particle.lines().map(|Line { normal: n, offset }| [n.x, n.y, offset]);
-        // SAFETY: the caller promised 3*capacity doubles.
-        unsafe { write_rows(rows, lines, capacity, count) }
-    })
+    give!(
+        (lines, capacity, count),
+        [particle],
+        Ok(particle.lines().map(|Line { normal: n, offset }| [n.x, n.y, offset]))
+    )
 }

@@ -1,15 +1,12 @@
 //! The contact patch in the plane.
 
-use super::convert::pose_from;
-use super::particle::pp_particle_2d;
-use super::types::pp_pose_2d;
-use crate::capi::convert::contact_of;
-use crate::capi::fence::{borrow, fenced, output};
-use crate::capi::patch::{pp_patch_state, settings, state_of, with_points};
+use super::particle::{pp_particle_2d, pp_pose_2d};
+use crate::capi::fence::call;
+use crate::capi::patch::{Answer, answer, pp_patch_state, settings};
 use crate::capi::status::*;
 use crate::capi::types::{pp_contact_2d, pp_patch_point_2d};
-use crate::planar::{PatchPoint, patch_of_contact};
-use crate::{PatchScratch, PatchSettings};
+use crate::planar::{Patch, PatchPoint, patch_of_contact};
+use crate::{PatchSettings, PatchState};
 
 /// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
 /// place of areas, all per unit of thickness.
@@ -69,37 +66,42 @@ pub unsafe extern "C" fn pp_patch_of_contact_2d(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let (a, b) = unsafe { (&borrow(a)?.0, &borrow(b)?.0) };
-        let (pose_a, pose_b) = unsafe { (pose_from(borrow(pose_a)?)?, pose_from(borrow(pose_b)?)?) };
-        let contact = unsafe { contact_of(contact) }?;
+    call!([a, pose_a, b, pose_b, contact], {
         let settings = PatchSettings { with_stiffness: true, ..settings(tolerance, with_energy)? };
-        let out = unsafe { output(patch) }?;
-        let state = unsafe { state_of(state, capacity) };
-        let run = |scratch: &mut PatchScratch, visit: &mut dyn FnMut(PatchPoint)| match state {
+        let run = |scratch: &mut _, state: Option<&mut PatchState>, visit: &mut dyn FnMut(PatchPoint)| match state {
             Some(state) => state.patch_in_plane(a, &pose_a, b, &pose_b, contact, &settings, scratch),
             None => patch_of_contact(a, &pose_a, b, &pose_b, contact, &settings, scratch, visit),
         };
         // SAFETY: as the caller has promised.
-        let patch = unsafe { with_points(run, |patch| patch.points, points, capacity, count) }?;
-        out.write(pp_patch_2d {
-            flags: patch.flags.bits(),
-            reserved: 0,
-            error: patch.error,
-            depth_length: patch.depth_length,
-            force: patch.force.into(),
-            torque: patch.torque,
-            pressure_centre: patch.pressure_centre.into(),
-            branch_a: patch.branch_a.into(),
-            branch_b: patch.branch_b.into(),
-            length: patch.length,
-            centroid: patch.centroid.into(),
-            second_moment: patch.second_moment,
-            mean_depth: patch.mean_depth,
-            largest_depth: patch.largest_depth,
-            energy: patch.energy,
-            stiffness: std::array::from_fn(|i| patch.stiffness[(i / 3, i % 3)]),
-        });
-        Ok(())
+        unsafe { answer(run, state, patch, (points, capacity, count)) }
     })
+}
+
+impl Answer for Patch {
+    type InC = pp_patch_2d;
+
+    fn points(&self) -> usize {
+        self.points
+    }
+
+    fn in_c(&self) -> pp_patch_2d {
+        pp_patch_2d {
+            flags: self.flags.bits(),
+            reserved: 0,
+            error: self.error,
+            depth_length: self.depth_length,
+            force: self.force.into(),
+            torque: self.torque,
+            pressure_centre: self.pressure_centre.into(),
+            branch_a: self.branch_a.into(),
+            branch_b: self.branch_b.into(),
+            length: self.length,
+            centroid: self.centroid.into(),
+            second_moment: self.second_moment,
+            mean_depth: self.mean_depth,
+            largest_depth: self.largest_depth,
+            energy: self.energy,
+            stiffness: std::array::from_fn(|i| self.stiffness[(i / 3, i % 3)]),
+        }
+    }
 }

@@ -1,11 +1,26 @@
 //! What can be asked of a particle of the plane.
 
-use super::convert::{finite, pose_from};
-use super::particle::pp_particle_2d;
-use super::types::{pp_area_properties, pp_pose_2d};
-use crate::capi::fence::{borrow, fenced, output, read, write_rows};
+use super::particle::{pp_particle_2d, pp_pose_2d};
+use crate::capi::convert::finite;
+use crate::capi::fence::give;
+use crate::capi::output::IfWanted;
 use crate::capi::status::*;
 use nalgebra::Vector2;
+
+/// Area and second moments of a particle of the plane of unit density, in its local frame.
+#[repr(C)]
+#[derive(Clone, Copy, Debug)]
+pub struct pp_area_properties {
+    /// Area, length^2.
+    pub area: f64,
+    /// Centroid, local frame.
+    pub centroid: [f64; 2],
+    /// xx, yy, xy of the integral of x x^T dA about the local origin, length^4. xx + yy is the moment of inertia
+    /// of a body that turns in the plane.
+    pub second_moment: [f64; 3],
+    /// Estimated bound on the relative error, as in struct pp_mass_properties.
+    pub error: f64,
+}
 
 /// f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
 /// be NULL).
@@ -21,17 +36,9 @@ pub unsafe extern "C" fn pp_particle_potential_2d(
     f: *mut f64,
     gradient: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let pose = pose_from(unsafe { borrow(pose) }?)?;
-        let point = finite(unsafe { borrow(point.cast::<[f64; 2]>()) }?)?;
-        let f = unsafe { output(f) }?;
-        let x = pose.to_local(&point);
-        f.write(particle.potential(&x));
-        if let Ok(gradient) = unsafe { output(gradient.cast::<[f64; 2]>()) } {
-            gradient.write(pose.rotate(&particle.gradient(&x)).into());
-        }
-        Ok(())
+    give!((f, IfWanted(gradient)), [particle, pose, point], {
+        let x = pose.to_local(&finite(point)?);
+        Ok((particle.potential(&x), move || pose.rotate(&particle.gradient(&x))))
     })
 }
 
@@ -44,8 +51,7 @@ pub unsafe extern "C" fn pp_particle_bounding_radius_2d(
     particle: *const pp_particle_2d,
     radius: *mut f64,
 ) -> pp_status {
-    // SAFETY: as promised.
-    unsafe { read(particle, radius, |particle| particle.0.bounding_radius()) }
+    give!(radius, [particle], Ok(particle.bounding_radius()))
 }
 
 /// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
@@ -59,15 +65,7 @@ pub unsafe extern "C" fn pp_particle_box_2d(
     lower: *mut f64,
     upper: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let pose = pose_from(unsafe { borrow(pose) }?)?;
-        let (lower, upper) = unsafe { (output(lower.cast::<[f64; 2]>())?, output(upper.cast::<[f64; 2]>())?) };
-        let (low, high) = particle.bounding_box(&pose);
-        lower.write(low.into());
-        upper.write(high.into());
-        Ok(())
-    })
+    give!((lower, upper), [particle, pose], Ok(particle.bounding_box(&pose)))
 }
 
 /// Corners, local frame, of a polygon that holds the particle: rows of x, y.
@@ -83,12 +81,7 @@ pub unsafe extern "C" fn pp_particle_corners_2d(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let rows = particle.bounding_corners().map(|corner| corner.into());
-        // SAFETY: the caller promised 2*capacity doubles.
-        unsafe { write_rows(rows, corners, capacity, count) }
-    })
+    give!((corners, capacity, count), [particle], Ok(particle.bounding_corners()))
 }
 
 /// Distance from the centre to the boundary along a direction (2 doubles, local frame, any length).
@@ -101,12 +94,8 @@ pub unsafe extern "C" fn pp_particle_surface_distance_2d(
     direction: *const f64,
     distance: *mut f64,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let direction = unsafe { borrow(direction.cast::<[f64; 2]>()) }?;
-        let distance = unsafe { output(distance) }?;
-        distance.write(particle.surface_distance(&Vector2::zeros(), &(*direction).into()).ok_or(PP_BAD_POINT)?);
-        Ok(())
+    give!(distance, [particle, direction], {
+        particle.surface_distance(&Vector2::zeros(), &Vector2::from(*direction)).ok_or(PP_BAD_POINT)
     })
 }
 
@@ -119,18 +108,15 @@ pub unsafe extern "C" fn pp_particle_area_properties_2d(
     tolerance: f64,
     properties: *mut pp_area_properties,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let out = unsafe { output(properties) }?;
+    give!(properties, [particle], {
         let found = particle.area_properties(tolerance).map_err(|_| PP_BAD_SETTING)?;
         let second = found.second_moment;
-        out.write(pp_area_properties {
+        Ok(pp_area_properties {
             area: found.area,
             centroid: found.centroid.into(),
             second_moment: [second.m11, second.m22, second.m12],
             error: found.error,
-        });
-        Ok(())
+        })
     })
 }
 
@@ -150,11 +136,7 @@ pub unsafe extern "C" fn pp_particle_outline_2d(
     capacity: usize,
     count: *mut usize,
 ) -> pp_status {
-    fenced(|| {
-        let particle = &unsafe { borrow(particle) }?.0;
-        let outline = particle.outline(tolerance).map_err(|_| PP_BAD_SETTING)?;
-        let rows: Vec<[f64; 2]> = outline.into_iter().map(|point| point.into()).collect();
-        // SAFETY: the caller promised 2*capacity doubles.
-        unsafe { write_rows(rows.into_iter(), points, capacity, count) }
+    give!((points, capacity, count), [particle], {
+        particle.outline(tolerance).map(Vec::into_iter).map_err(|_| PP_BAD_SETTING)
     })
 }
