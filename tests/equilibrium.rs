@@ -7,7 +7,7 @@ use potential_particles::Plane;
 use potential_particles::equilibrium::*;
 use potential_particles::nalgebra::Vector3;
 use potential_particles::rock::{Joint, JointSet, SliceSettings, slice};
-use scenes::{arch, block, level, pushed, v, wall, wedge};
+use scenes::{arch, block, level, pushed, random_slope, slope, v, wall, wedge};
 
 const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
 
@@ -258,4 +258,55 @@ fn slope_of_three_sets() {
         }
         assert!(stands(&scene).unwrap().stands);
     }
+}
+
+/// Clamped blocks, steps that go round in circles, programs that clarabel does not solve: forces at the factor are in
+/// equilibrium and within the strength, and those without dilatancy are no stronger than the bound.
+#[test]
+fn slopes_of_random_sets() {
+    let set = |dip, to, spacing, fisher, seed| JointSet { fisher, seed, ..JointSet::new(dip, to, spacing) };
+    let without = f64::INFINITY;
+    let mut scenes: Vec<Scene> = [2.588168416085326, 1.9069787937289078]
+        .map(|spacing| {
+            let first = set(30.68570700381114, 357.3725093684094, spacing, 300.0, 957320);
+            let second = set(35.58012238211697, 84.96986296517329, spacing, without, 326426);
+            slope(
+                72.45111640073449,
+                &[first, second, set(36.01982276012768, 99.40599649616884, spacing, 300.0, 890180)],
+            )
+        })
+        .into();
+    scenes.push(slope(
+        68.58013812082496,
+        &[
+            set(61.10425149867071, 323.4461434434458, 2.2321884630668727, without, 790573),
+            set(28.38949824727841, 133.95174756442597, 2.2321884630668727, 300.0, 907153),
+            set(41.341682100194774, 145.71800157474905, 2.2321884630668727, 300.0, 899105),
+        ],
+    ));
+    scenes.extend((1..=12).map(|seed| random_slope(seed, 60.0)));
+    let mut answered = 0;
+    for scene in scenes {
+        let factors = BOTH.map(|flow| match strength_factor(&scene, flow) {
+            Err(EquilibriumError::NoFreeBody | EquilibriumError::StandsWithoutStrength) => f64::INFINITY,
+            found => {
+                let found = found.expect("a factor");
+                let free = scene.bodies.iter().filter(|body| !body.held);
+                let mean = free.clone().map(|body| body.dead.force.norm()).sum::<f64>() / free.count() as f64;
+                let mut forces = found.forces.iter();
+                for contact in &scene.contacts {
+                    let normal = contact.normal.normalize();
+                    for force in forces.by_ref().take(contact.corners.len()) {
+                        let n = force.dot(&normal);
+                        let beyond = (force - n * normal).norm() - contact.friction / found.factor * n;
+                        assert!(n >= -1e-6 * mean && beyond <= 1e-4 * mean, "{n} {beyond} {mean}");
+                    }
+                }
+                answered += 1;
+                found.factor
+            }
+        });
+        assert!(factors[1] <= factors[0] * (1.0 + 1e-3), "{factors:?}");
+    }
+    assert!(answered > 12, "{answered}");
 }

@@ -6,10 +6,12 @@ mod scenes;
 mod target;
 
 use potential_particles::Plane;
-use potential_particles::equilibrium::{Flow, JointStrength, Load, Scene, load_factor, stands, strength_factor};
+use potential_particles::equilibrium::{
+    EquilibriumError, Flow, JointStrength, Load, Scene, load_factor, stands, strength_factor,
+};
 use potential_particles::nalgebra::Vector3;
 use potential_particles::rock::{JointSet, SliceSettings, slice};
-use scenes::{arch, block, pushed, v, wall, wedge};
+use scenes::{arch, block, pushed, random_slope, v, wall, wedge};
 use serde_json::{Value, json};
 use target::{at_most, own_time};
 
@@ -34,6 +36,7 @@ fn main() {
     let scenes = walls.iter().map(|&(width, rows)| ("wall", pushed(wall(width, rows, 0.6))));
     let scenes = scenes.chain(masses.iter().map(|&count| ("rock mass", rock_mass(count))));
     let rows: Vec<Value> = scenes.map(|(name, scene)| timed(name, &scene)).collect();
+    targets.push(at_most("random slopes without a factor of safety, of 100", 0.0, slopes(is_quick)));
     let [last, before] = [1, 2].map(|i| &rows[walls.len() - i]);
     let of = |row: &Value, name: &str| row[name].as_f64().expect("a number");
     let growth = (of(last, "seconds") / of(before, "seconds")).ln() / (of(last, "blocks") / of(before, "blocks")).ln();
@@ -100,6 +103,29 @@ fn rock_mass(count: u32) -> Scene {
     let is_held = |block: usize| !mass.blocks[block].corners.iter().all(is_inside);
     let strength = JointStrength { friction: 0.6, ..JointStrength::default() };
     pushed(Scene::of_rock(&mass, v(0.0, 0.0, -26e3), is_held, |_| strength))
+}
+
+/// Random slopes of some 10 to 100 free blocks, of which no factor is found, per cent.
+fn slopes(is_quick: bool) -> f64 {
+    let seed = std::time::SystemTime::now().duration_since(std::time::UNIX_EPOCH).map_or(0, |time| time.as_secs());
+    let (mut asked, mut missing) = (0, 0);
+    for (i, blocks) in (0..if is_quick { 10 } else { 100 }).zip([60.0, 60.0, 60.0, 150.0].into_iter().cycle()) {
+        let scene = random_slope(seed + i, blocks);
+        for flow in BOTH {
+            match strength_factor(&scene, flow) {
+                // All blocks reach the sides.
+                Err(EquilibriumError::NoFreeBody) => continue,
+                Ok(_) | Err(EquilibriumError::StandsWithoutStrength) => {}
+                Err(error) => {
+                    missing += 1;
+                    println!("slope {} of {blocks} blocks, {flow:?}: {error}", seed + i);
+                }
+            }
+            asked += 1;
+        }
+    }
+    println!("random slopes from {seed}: {missing} of {asked} factors are missing");
+    100.0 * f64::from(missing) / f64::from(asked.max(1))
 }
 
 /// The associated load factor of a scene, its processor time and the largest memory so far.

@@ -1,7 +1,11 @@
 //! Scenes whose limits are known, for the tests and the benchmark of `equilibrium`.
 
-use potential_particles::equilibrium::{Body, Contact, Load, Scene};
+use potential_particles::Plane;
+use potential_particles::equilibrium::{Body, Contact, JointStrength, Load, Scene};
 use potential_particles::nalgebra::{Matrix3, Vector3};
+use potential_particles::rock::{JointSet, SliceSettings, slice};
+use rand_pcg::Pcg64;
+use rand_pcg::rand_core::{RngCore, SeedableRng};
 
 pub fn v(x: f64, y: f64, z: f64) -> Vector3<f64> {
     Vector3::new(x, y, z)
@@ -101,6 +105,37 @@ pub fn wedge(planes: [[f64; 2]; 2], face: [f64; 2], friction: f64) -> (Scene, f6
     let forces = Matrix3::from_columns(&[a, b, line]).lu().solve(&-weight).unwrap();
     assert!(forces.x > 0.0 && forces.y > 0.0, "it slides on both planes");
     (scene, friction * (forces.x + forces.y) / line.z)
+}
+
+/// A slope, 8 high, whose face dips at an angle, cut by joint sets; blocks on its other sides but the top are held.
+/// Friction of 35 degrees.
+pub fn slope(face: f64, sets: &[JointSet]) -> Scene {
+    let outwards = v(face.to_radians().sin(), 0.0, face.to_radians().cos());
+    let side = |i: usize, offset: f64| Plane { normal: Vector3::ith(i / 2, [-1.0, 1.0][i % 2]), offset };
+    let mut domain: Vec<Plane> = (0..6).zip([0.0, 10.0, 0.0, 10.0, 0.0, 8.0]).map(|(i, at)| side(i, at)).collect();
+    domain.push(Plane { normal: outwards, offset: 9.0 * outwards.x });
+    let joints: Vec<_> = sets.iter().flat_map(|set| set.joints([5.0, 5.0, 4.0], 9.0).expect("a set")).collect();
+    let settings = SliceSettings { least_volume: 1e-3, least_thickness: 0.02, ..SliceSettings::default() };
+    let mass = slice(&domain, &joints, &settings).expect("a rock mass");
+    let is_held = |block: usize| {
+        let is_inside = |at: &Vector3<f64>| at.x.min(at.y).min(at.z) > 1e-6 && at.x.max(at.y) < 10.0 - 1e-6;
+        !mass.blocks[block].corners.iter().all(is_inside)
+    };
+    let strength = JointStrength { friction: 35.0_f64.to_radians().tan(), ..JointStrength::default() };
+    Scene::of_rock(&mass, v(0.0, 0.0, -26e3), is_held, |_| strength)
+}
+
+/// A slope cut by three random sets into about that many blocks.
+pub fn random_slope(seed: u64, blocks: f64) -> Scene {
+    let mut random = Pcg64::seed_from_u64(seed);
+    let mut uniform = |low: f64, high: f64| low + (high - low) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
+    let (face, spacing) = (uniform(50.0, 75.0), (800.0 / blocks).cbrt() * uniform(0.8, 1.2));
+    let sets = [(); 3].map(|()| {
+        let fisher = if uniform(0.0, 1.0) < 0.5 { f64::INFINITY } else { 300.0 };
+        let set = JointSet::new(uniform(0.0, 1.0).acos().to_degrees(), uniform(0.0, 360.0), spacing);
+        JointSet { fisher, seed: uniform(0.0, 1e6) as u64, ..set }
+    });
+    slope(face, &sets)
 }
 
 /// A scene whose live loads are the dead ones turned along x.

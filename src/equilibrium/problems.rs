@@ -22,6 +22,8 @@ const FASTER: f64 = 1.1;
 const SETTLED: f64 = 1e-7;
 /// and if no friction exceeds its strength by more than this, over the mean load of a body.
 const EXCESS: f64 = 1e-5;
+/// Strength above that at which clamped forces have no bound, as a part of it: the least with which clarabel finds them.
+const CLAMPED: [f64; 3] = [EXCESS, 1e-4, 1e-3];
 /// Programs with full dilatancy after which each halves the bracket of the strength factor.
 const UNTIL_HALVED: u32 = 30;
 /// Most programs of a sequence. Slopes of 69 blocks and walls of 52 need 16, walls of some 100 more than 40 (measured).
@@ -158,11 +160,13 @@ impl Sequence<'_> {
         if kappa <= SETTLED {
             return Err(self.unlimited);
         }
-        let kappa = kappa * (1.0 + EXCESS);
-        match self.problem.with_part(kappa)? {
-            Outcome::Solved(solved) => Ok(Ended::Settled(Solved { factor: kappa, ..solved }, 0.0, programs)),
-            _ => Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() }),
+        for margin in CLAMPED {
+            let kappa = kappa * (1.0 + margin);
+            if let Ok(Outcome::Solved(solved)) = self.problem.with_part(kappa) {
+                return Ok(Ended::Settled(Solved { factor: kappa, ..solved }, 0.0, programs));
+            }
         }
+        Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() })
     }
 
     /// `first`: dilatancy of the first program; `strengths` from the dilatancy and the last program; `strength`: what
