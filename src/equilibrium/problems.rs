@@ -22,7 +22,7 @@ const FASTER: f64 = 1.1;
 const SETTLED: f64 = 1e-7;
 /// and if no friction exceeds its strength by more than this, over the mean load of a body.
 const EXCESS: f64 = 1e-5;
-/// Strength above that at which clamped forces have no bound, as a part of it: the least with which clarabel finds them.
+/// Strength above that at which clamped forces have no bound, as a part of it: the first with which they are found.
 const CLAMPED: [f64; 3] = [EXCESS, 1e-4, 1e-3];
 /// Programs with full dilatancy after which each halves the bracket of the strength factor.
 const UNTIL_HALVED: u32 = 30;
@@ -184,7 +184,15 @@ impl Sequence<'_> {
         let mut bracket = [0.0, f64::INFINITY];
         let mut factors = Vec::new();
         let (mut step_before, mut pace) = (0.0, 1.0_f64);
+        let mut is_halved = false;
         for programs in 1..=MOST {
+            match (inside(bracket), last.as_mut()) {
+                _ if !is_halved => {}
+                (Some(kappa), Some(last)) => last.factor = kappa,
+                _ if self.flow == Flow::NonDilatant => dilatancy = less(dilatancy),
+                _ => return self.clamped(bracket[1], programs - 1),
+            }
+            is_halved = false;
             let now = strengths(dilatancy, last.as_ref());
             let near = last.as_ref().filter(|_| dilatancy < 1.0);
             let near =
@@ -201,18 +209,14 @@ impl Sequence<'_> {
                     return Err(EquilibriumError::NotConverged { status });
                 }
                 // Friction of this κ clamps blocks with forces of any size, or this κ is too near to that for clarabel:
-                // forces of the least norm are found there, too.
+                // forces of the least norm are found there, too. If they are not, it counts as too weak: the safe side.
                 (unknown @ (Ok(Outcome::Unlimited) | Err(EquilibriumError::NotConverged { .. })), Some(last))
                     if dilatancy == 1.0 =>
                 {
                     let stands =
                         unknown.is_ok() || matches!(self.problem.with_part(last.factor), Ok(Outcome::Solved(_)));
                     bracket[usize::from(stands)] = last.factor;
-                    match inside(bracket) {
-                        Some(kappa) => last.factor = kappa,
-                        None if self.flow == Flow::NonDilatant => dilatancy = less(dilatancy),
-                        None => return self.clamped(bracket[1], programs),
-                    }
+                    is_halved = true;
                     continue;
                 }
                 (Ok(Outcome::Unlimited), Some(_)) => {
@@ -257,14 +261,7 @@ impl Sequence<'_> {
                 _ => solved,
             });
             let is_slow = self.goal == Goal::Strength && programs > UNTIL_HALVED;
-            if let Some(last) = last.as_mut().filter(|last| dilatancy == 1.0 && (is_slow || last.factor >= bracket[1]))
-            {
-                match inside(bracket) {
-                    Some(kappa) => last.factor = kappa,
-                    None if self.flow == Flow::NonDilatant => dilatancy = less(dilatancy),
-                    None => return self.clamped(bracket[1], programs),
-                }
-            }
+            is_halved = dilatancy == 1.0 && last.as_ref().is_some_and(|last| is_slow || last.factor >= bracket[1]);
         }
         let end = &factors[factors.len().saturating_sub(10)..];
         let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().reduce(of).unwrap_or(f64::NAN));
