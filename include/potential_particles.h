@@ -930,7 +930,7 @@ typedef struct pp_slice_settings {
     // And if the largest ball in a part would have a smaller diameter than this.
     double least_width;
     // And if the extent of a part along x, y or z would be more than so many times the diameter of that
-    // ball; 0: no limit.
+    // ball; 0 or infinity: no limit.
     double largest_aspect;
     // More blocks than this are an error; 0: a million.
     uint64_t most_blocks;
@@ -1073,7 +1073,8 @@ typedef struct pp_joint_set {
 // The settings ask for the cone-program back end, and the library was built without it.
 #define PP_NO_CONE_PROGRAM 11
 
-// An index or a count names something that is not there.
+// An index or a count names something that is not there; of any function, an array of more elements than any
+// memory holds.
 #define PP_BAD_INDEX 12
 
 // The vertices of a triangle lie on one line, so that it has no normal.
@@ -1544,7 +1545,8 @@ pp_status pp_particle_depth_length(const struct pp_particle *particle,
 // count: receives their number; may be NULL with a capacity of 0.
 // Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
 // Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
-// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size).
+// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size,
+// points the first ones).
 pp_status pp_patch_of_contact(const struct pp_particle *a,
                               const struct pp_pose *pose_a,
                               const struct pp_particle *b,
@@ -2135,7 +2137,7 @@ pp_status pp_joint_from_corners(const double *corners,
 // joints: room for capacity joints; may be NULL when capacity is 0. count: receives their number, also
 // when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
 // message: receives, on failure, a sentence that names the value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BUFFER_TOO_SMALL.
+// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_SETTING (exponential), PP_BUFFER_TOO_SMALL.
 // Pointers: centre points to 3 doubles, message to message_size bytes.
 pp_status pp_joint_set_joints(const struct pp_joint_set *set,
                               const double *centre,

@@ -100,7 +100,8 @@ pub unsafe extern "C" fn pp_particle_depth_length(particle: *const pp_particle, 
 /// count: receives their number; may be NULL with a capacity of 0.
 /// Buffers: the library keeps some 100 kilobytes for each thread that calls this, until the thread ends.
 /// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact was not filled, or is
-/// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size).
+/// separated), PP_BAD_SETTING (tolerance, with_energy), PP_BUFFER_TOO_SMALL (count receives the needed size,
+/// points the first ones).
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_patch_of_contact(
     a: *const pp_particle,

@@ -22,7 +22,7 @@ pub struct pp_slice_settings {
     /// And if the largest ball in a part would have a smaller diameter than this.
     pub least_width: f64,
     /// And if the extent of a part along x, y or z would be more than so many times the diameter of that
-    /// ball; 0: no limit.
+    /// ball; 0 or infinity: no limit.
     pub largest_aspect: f64,
     /// More blocks than this are an error; 0: a million.
     pub most_blocks: u64,

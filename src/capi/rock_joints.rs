@@ -92,7 +92,7 @@ pub unsafe extern "C" fn pp_joint_from_corners(
 /// joints: room for capacity joints; may be NULL when capacity is 0. count: receives their number, also
 /// when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
 /// message: receives, on failure, a sentence that names the value (may be NULL).
-/// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BUFFER_TOO_SMALL.
+/// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_SETTING (exponential), PP_BUFFER_TOO_SMALL.
 /// Pointers: centre points to 3 doubles, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_joint_set_joints(

@@ -34,7 +34,8 @@ pub const PP_INTERNAL_ERROR: pp_status = 9;
 pub const PP_BUFFER_TOO_SMALL: pp_status = 10;
 /// The settings ask for the cone-program back end, and the library was built without it.
 pub const PP_NO_CONE_PROGRAM: pp_status = 11;
-/// An index or a count names something that is not there.
+/// An index or a count names something that is not there; of any function, an array of more elements than any
+/// memory holds.
 pub const PP_BAD_INDEX: pp_status = 12;
 /// The vertices of a triangle lie on one line, so that it has no normal.
 pub const PP_DEGENERATE_TRIANGLE: pp_status = 13;
