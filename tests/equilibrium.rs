@@ -202,6 +202,7 @@ fn what_is_no_scene_is_refused_by_name() {
         ("length of the normal of contact 0 is 0", |s| s.contacts[0].normal = Vector3::zeros()),
         ("centre of body 1 is NaN", |s| s.bodies[1].centre.x = f64::NAN),
         ("contact 0 joins bodies 0 and 7", |s| s.contacts[0].bodies[1] = 7),
+        ("lean of the polygon from its normal of contact 0 is 0.7", |s| s.contacts[0].normal = v(1.0, 0.0, 0.0)),
         ("contact 0 has no corner", |s| s.contacts[0].corners.clear()),
     ] {
         let error = refused(change);

@@ -83,7 +83,27 @@ impl Contact {
         let area = 0.5 * doubled.norm();
         Self { bodies, corners, normal, area, friction, cohesion: 0.0, tension: 0.0 }
     }
+
+    /// The largest distance of a corner from the plane across the normal, over that from the middle of the corners; 0
+    /// of what is a point beside its bodies.
+    fn lean(&self, bodies: &[Body]) -> f64 {
+        let middle = self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64;
+        let normal = self.normal.normalize();
+        let about = || self.corners.iter().map(|at| at - middle);
+        let extent = about().map(|at| at.norm()).fold(0.0, f64::max);
+        let off = about().map(|at| at.dot(&normal).abs()).fold(0.0, f64::max);
+        let reach = self.bodies.iter().map(|&body| (bodies[body].centre - middle).norm()).fold(middle.norm(), f64::max);
+        if extent > A_POINT * reach { off / extent } else { 0.0 }
+    }
 }
+
+/// Where corners lie farther from the plane across the normal than this share of their extent, the normal is that of
+/// another face: patches of bodies that have turned lean by some 1e-3.
+const MOST_LEAN: f64 = 0.1;
+
+/// Polygons below this part of their bodies, or of their distance from the origin, are points: the rounding of corners
+/// decides how they lean.
+const A_POINT: f64 = 1e-6;
 
 /// Bodies and their contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -130,6 +150,8 @@ impl Scene {
             let length = contact.normal.norm();
             check("length of the normal", length, length > 0.0, "above 0")?;
             contact.corners.iter().try_for_each(|at| check("a corner", at.sum(), true, "finite"))?;
+            let lean = contact.lean(&self.bodies);
+            check("lean of the polygon from its normal", lean, lean <= MOST_LEAN, "0.1 or less: turn the normal")?;
             for (name, value) in [
                 ("area", contact.area),
                 ("friction", contact.friction),
