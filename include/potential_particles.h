@@ -331,8 +331,8 @@ typedef struct pp_pose {
     double orientation[4];
 } pp_pose;
 
-// How to solve. Fill with the defaults (pp_settings_default), then change what you need; a NULL pointer in
-// place of a pp_settings means the defaults.
+// How to solve: the defaults, changed where needed. In C pp_settings_default fills them in, and a NULL pointer
+// in place of a pp_settings means the defaults.
 typedef struct pp_settings {
     // PP_MIDWAY (default) or PP_CLOSEST.
     uint32_t formulation;

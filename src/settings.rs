@@ -53,8 +53,8 @@ impl fmt::Display for BackEnd {
     }
 }
 
-/// How to solve. Fill with the defaults (pp_settings_default), then change what you need; a NULL pointer in
-/// place of a pp_settings means the defaults.
+/// How to solve: the defaults, changed where needed. In C pp_settings_default fills them in, and a NULL pointer
+/// in place of a pp_settings means the defaults.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 #[repr(C)]

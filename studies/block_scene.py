@@ -4,12 +4,11 @@ choices, which no case of the classics changes.
 
 Every length below is relative to the size of the scene, the diameter of the largest ball in its smallest block.
 
-- Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends r
-inside the edge.
+- Edges are rounded with the radius r = ROUNDING: the flat part of a face, over which its contact point may move, ends
+  r inside the edge.
 - Springs are so stiff that the largest force at rest, which the case names (`load`), makes an overlap of OVERLAP.
 - Faces are flat (k = 0). Their contact point is chosen as if they bulged by BULGE of that overlap, so that it moves
-smoothly with
-  the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/classics.md).
+  smoothly with the tilt: it crosses a face while the block tilts by some 1e-6 rad (docs/classics.md).
 - The time step follows from the stiffest motion, springs or tilting.
 - With LAW=joint in the environment, contacts are patches with the law of joints: the load on a square of the size makes
   an overlap of OVERLAP_OF_JOINTS, less than of points, since a face that tilts on its edge gives way

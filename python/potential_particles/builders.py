@@ -34,17 +34,17 @@ def mesh(file, *, hull=False, scale=1.0, rounding=None, k=0.02, r=None, R=None):
     if not (0.0 < scale < math.inf):
         raise ValueError(f"scale={scale!r} must be finite and above 0")
     points, polygons = mesh_text.read(file)
-    if not np.isfinite(points * scale).all():
-        raise ValueError(f"{file}: times scale={scale!r} its points are not finite")
     known = mesh_text.known_to(points) * scale
     # Equal points are one; adding 0 makes one zero of both. A polygon is a fan of triangles.
-    points, places = np.unique(points + 0.0, axis=0, return_inverse=True)
+    points, places = np.unique(points * scale + 0.0, axis=0, return_inverse=True)
+    if not np.isfinite(points).all():
+        raise ValueError(f"{file}: times scale={scale!r} its points are not finite")
     corners = ((polygon[0], *two) for polygon in polygons for two in zip(polygon[1:-1], polygon[2:]))
     triangles = places.ravel()[np.fromiter(corners, np.dtype((np.int64, 3)))]
     triangles = triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
     try:
-        return (_builders.hull(points * scale, known=known, rounding=rounding, k=k, r=r, R=R) if hull else
-                _builders.surface(points * scale, triangles, known=known, rounding=rounding, k=k, r=r, R=R))
+        return (_builders.hull(points, known=known, rounding=rounding, k=k, r=r, R=R) if hull else
+                _builders.surface(points, triangles, known=known, rounding=rounding, k=k, r=r, R=R))
     except ValueError as error:
         raise ValueError(f"{file}: {error}") from None
 

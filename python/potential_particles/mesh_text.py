@@ -56,6 +56,7 @@ def read_text(file):
 
 
 def lines_of(content):
+    """As read_text, of bytes."""
     if content[:2] in (b"\xff\xfe", b"\xfe\xff"):
         raise ValueError("it is text in UTF-16: save it as UTF-8")
     return content.decode("utf-8-sig", errors="replace").splitlines()

@@ -67,9 +67,6 @@ pickled!(PyShape: Shape, |object| object.shape, |py, shape| PyShape::of(py, shap
 /// The keywords of rounding: the share of the size, k, and r and R, lengths.
 type Keywords = (Option<f64>, f64, Option<f64>, Option<f64>);
 
-/// What docs/shapes.md advises.
-const SHARE: f64 = 0.05;
-
 /// For scripts written for version 0.1, until December 2027.
 const LENGTHS: &CStr =
     c"r and R of builders are lengths; until version 0.1 they were shares of the size: r=0.05 of then is \
@@ -88,7 +85,7 @@ fn built(
             return Err(refused(format!("rounding={share:?} and r={r:?} both give the rounding radius: leave out one")));
         }
         (None, Some(r)) => Rounding::of_radius(r, k),
-        (share, None) => Rounding::new(share.unwrap_or(SHARE), k),
+        (share, None) => Rounding::new(share.unwrap_or(Rounding::SHARE), k),
     };
     let rounding = shadow_radius.map_or(rounding, |length| rounding.with_shadow_radius(length));
     let shape = py.detach(|| make(&rounding)).map_err(refused)?;

@@ -376,7 +376,7 @@ mod tests {
     use crate::pair::scattered;
 
     fn on_triangle(particle: &Particle, pose: &Pose, triangle: &Triangle, precise: bool) -> Closest {
-        let settings = Settings { solve_separated: 1, ..Settings::default() };
+        let settings = Settings::DEFAULT.with_solve_separated(true);
         let (plane, flags) = (PlacedPart::new(triangle.inside(), pose), Flags::NONE);
         let pair = Pair::on_boundary(particle, &plane);
         let placed = PlacedTriangle::of(triangle, pose, &pair);

@@ -135,7 +135,7 @@ mod tests {
     #[test]
     fn the_way_of_s_over_a_seam_is_that_of_the_least_s_on_both_sides() {
         let cube = Particle::cube(0.4, 0.1, 0.05, 0.9);
-        let settings = Settings { solve_separated: 1, ..Settings::default() };
+        let settings = Settings::DEFAULT.with_solve_separated(true);
         let (mut falls, mut rises, mut unknown) = (0, 0, 0);
         for seed in 0..4000 {
             let mut chance = scattered(40 * seed);

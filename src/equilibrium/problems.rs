@@ -184,15 +184,15 @@ impl Sequence<'_> {
         let mut bracket = [0.0, f64::INFINITY];
         let mut factors = Vec::new();
         let (mut step_before, mut pace) = (0.0, 1.0_f64);
-        let mut is_halved = false;
+        let mut halves = false;
         for programs in 1..=MOST {
             match (inside(bracket), last.as_mut()) {
-                _ if !is_halved => {}
+                _ if !halves => {}
                 (Some(kappa), Some(last)) => last.factor = kappa,
                 _ if self.flow == Flow::NonDilatant => dilatancy = less(dilatancy),
                 _ => return self.clamped(bracket[1], programs - 1),
             }
-            is_halved = false;
+            halves = false;
             let now = strengths(dilatancy, last.as_ref());
             let near = last.as_ref().filter(|_| dilatancy < 1.0);
             let near =
@@ -216,7 +216,7 @@ impl Sequence<'_> {
                     let stands =
                         unknown.is_ok() || matches!(self.problem.with_part(last.factor), Ok(Outcome::Solved(_)));
                     bracket[usize::from(stands)] = last.factor;
-                    is_halved = true;
+                    halves = true;
                     continue;
                 }
                 (Ok(Outcome::Unlimited), Some(_)) => {
@@ -232,11 +232,11 @@ impl Sequence<'_> {
             if let Some(last) = last.as_ref().filter(|_| self.goal == Goal::Strength && dilatancy == 1.0) {
                 bracket[usize::from(solved.factor <= last.factor)] = last.factor;
             }
-            let change = last.as_ref().map_or(f64::INFINITY, |last| (solved.factor - last.factor).abs());
+            let step = last.as_ref().map_or(f64::INFINITY, |last| solved.factor - last.factor);
             let excess = self.problem.excess(&solved, strength(solved.factor));
             // With associated flow one program gives the load factor.
             let whole = self.goal == Goal::Load && dilatancy == 1.0;
-            let settled = whole || change <= (SETTLED * solved.factor.abs()).max(BEST) && excess <= EXCESS;
+            let settled = whole || step.abs() <= (SETTLED * solved.factor.abs()).max(BEST) && excess <= EXCESS;
             if settled && dilatancy == if self.flow == Flow::Associated { 1.0 } else { 0.0 } {
                 return Ok(Ended::Settled(solved, excess, programs));
             }
@@ -250,7 +250,6 @@ impl Sequence<'_> {
             // Far below the limit φ says little: forces that stand with it may be of any size.
             let most = last.as_ref().filter(|_| dilatancy == 1.0 && bracket[0] > 0.0);
             let most = most.map_or(f64::INFINITY, |last| last.factor / (KEPT * KEPT));
-            let step = last.as_ref().map_or(0.0, |last| solved.factor - last.factor);
             if dilatancy == 0.0 {
                 pace = if step * step_before < 0.0 { SLOWER * pace } else { (FASTER * pace).min(1.0) };
             }
@@ -261,19 +260,14 @@ impl Sequence<'_> {
                 _ => solved,
             });
             let is_slow = self.goal == Goal::Strength && programs > UNTIL_HALVED;
-            is_halved = dilatancy == 1.0 && last.as_ref().is_some_and(|last| is_slow || last.factor >= bracket[1]);
+            halves = dilatancy == 1.0 && last.as_ref().is_some_and(|last| is_slow || last.factor >= bracket[1]);
         }
         let end = &factors[factors.len().saturating_sub(10)..];
         let [least, most] = [f64::min, f64::max].map(|of| end.iter().copied().reduce(of).unwrap_or(f64::NAN));
-        match last {
-            Some(last)
-                if dilatancy == 0.0
-                    && most - least <= ROUGHLY * most.abs()
-                    && self.problem.excess(&last, strength(last.factor)) <= ROUGH_EXCESS =>
-            {
-                let excess = self.problem.excess(&last, strength(last.factor));
-                Ok(Ended::Settled(last, excess, MOST))
-            }
+        let is_rough = dilatancy == 0.0 && most - least <= ROUGHLY * most.abs();
+        let rough = last.filter(|_| is_rough).map(|last| (self.problem.excess(&last, strength(last.factor)), last));
+        match rough {
+            Some((excess, last)) if excess <= ROUGH_EXCESS => Ok(Ended::Settled(last, excess, MOST)),
             // κ is the inverse of the factor.
             _ if self.goal == Goal::Strength => {
                 Err(EquilibriumError::NotSettled { programs: MOST, least: 1.0 / most, most: 1.0 / least })

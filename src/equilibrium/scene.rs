@@ -72,7 +72,7 @@ pub struct Contact {
 impl Contact {
     /// A contact with friction alone. The area is that of the convex polygon of the corners, in whatever order.
     pub fn new(bodies: [usize; 2], corners: Vec<Vector3<f64>>, normal: Vector3<f64>, friction: f64) -> Self {
-        let middle = corners.iter().sum::<Vector3<f64>>() / corners.len().max(1) as f64;
+        let middle = middle(&corners);
         let across = normal.cross(&Vector3::ith(normal.iamin(), 1.0));
         let (across, aside) = (normal.norm() * across, normal.cross(&across));
         let angle = |at: &Vector3<f64>| aside.dot(&(at - middle)).atan2(across.dot(&(at - middle)));
@@ -87,14 +87,18 @@ impl Contact {
     /// The largest distance of a corner from the plane across the normal, over that from the middle of the corners; 0
     /// of what is a point beside its bodies.
     fn lean(&self, bodies: &[Body]) -> f64 {
-        let middle = self.corners.iter().sum::<Vector3<f64>>() / self.corners.len() as f64;
-        let normal = self.normal.normalize();
+        let (middle, normal) = (middle(&self.corners), self.normal.normalize());
         let about = || self.corners.iter().map(|at| at - middle);
         let extent = about().map(|at| at.norm()).fold(0.0, f64::max);
         let off = about().map(|at| at.dot(&normal).abs()).fold(0.0, f64::max);
         let reach = self.bodies.iter().map(|&body| (bodies[body].centre - middle).norm()).fold(middle.norm(), f64::max);
         if extent > A_POINT * reach { off / extent } else { 0.0 }
     }
+}
+
+/// The mean of corners; 0 of none.
+fn middle(corners: &[Vector3<f64>]) -> Vector3<f64> {
+    corners.iter().sum::<Vector3<f64>>() / corners.len().max(1) as f64
 }
 
 /// Where corners lie farther from the plane across the normal than this share of their extent, the normal is that of

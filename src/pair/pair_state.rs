@@ -246,7 +246,8 @@ mod tests {
             let pose_a = Pose::new([0.0; 3], [1.0, turn[2], turn[0], turn[1]]).unwrap();
             let pose_b = Pose::new(at.into(), [1.0, turn[0], turn[1], turn[2]]).unwrap();
             let formulation = if closest { Formulation::Closest } else { Formulation::Midway };
-            let settings = Settings { formulation, solve_separated: solve_separated.into(), carry_tolerance: 1e-9, ..Settings::default() };
+            let settings = Settings { formulation, carry_tolerance: 1e-9, ..Settings::default() };
+            let settings = settings.with_solve_separated(solve_separated);
             let look = |state: Option<&mut PairState>| detect(a, &pose_a, b, &pose_b, &settings, state);
             let cold = look(None).unwrap();
             let mut solution = numbers;

@@ -70,7 +70,7 @@ mod tests {
                     (Formulation::Midway, BackEnd::ConeProgram),
                     (Formulation::Closest, BackEnd::ConeProgram),
                 ] {
-                    let settings = Settings { formulation, back_end, solve_separated: 1, ..Settings::default() };
+                    let settings = Settings { formulation, back_end, ..Settings::default() }.with_solve_separated(true);
                     let mut state = PairState::default();
                     let contact =
                         crate::contact::detect::detect(&a.0, &pose_a, &b.0, &pose_b, &settings, Some(&mut state))

@@ -57,11 +57,14 @@ impl Extent {
 impl Default for Rounding {
     /// What docs/shapes.md advises: a twentieth of the size, k = 0.02.
     fn default() -> Self {
-        Self::new(0.05, 0.02)
+        Self::new(Self::SHARE, 0.02)
     }
 }
 
 impl Rounding {
+    /// The rounding radius of the default, as a share of the size.
+    pub const SHARE: f64 = 0.05;
+
     /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1]: 0 leaves faces
     /// flat, 1 makes a sphere of radius R. R, the radius of the shadow sphere, is the distance from the centre to the
     /// farthest corner.
