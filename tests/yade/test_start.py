@@ -85,6 +85,22 @@ def clump():
     find_contacts()
 
 
+def cantilever():
+    """Blocks that bonds alone hold."""
+    joints(cohesion=1e7, tensileStrength=1e7)
+    for place in range(5):
+        cuboid((1, 1, 1), (place, 0, 0), fixed=place == 0)
+    find_contacts()
+    potential_particles.bond_contacts()
+
+
+def wall_with_bonds(every):
+    wall(4, 4, 0.0)
+    for contact in list(O.interactions)[::every]:
+        contact.phys.tensileStrength = contact.phys.cohesion = 1e7
+        contact.phys.bonded = True
+
+
 def find_contacts():
     O.step()
     for body in O.bodies:
@@ -114,6 +130,7 @@ def stays(what, most_changed):
 
 # Where statics alone gives the forces they are the program's; where contacts are many, most of them are.
 for make, most_changed in ((slope, 1e-8), (lambda: slope("wall"), 1e-8), (lambda: slope("facet"), 1e-8), (stack, 1e-8),
+                           (cantilever, 1e-6), (lambda: wall_with_bonds(1), 1e-6), (lambda: wall_with_bonds(2), 1.0),
                            (clump, 1.0), (arch, 0.2), (lambda: wall(3, 3, 0.3), 1.0),
                            (lambda: wall(8, 6, 0.5 * WALL_FACTOR), 1.0)):
     make()
@@ -135,13 +152,38 @@ stack()
 answer = limit_analysis()
 slope()
 check.raises(ValueError, lambda: start_from(answer), "another scene", "other contacts")
-O.interactions[0, 1].phys.bonded = True
-answer = limit_analysis()
-check.raises(ValueError, lambda: start_from(answer), "a bond", "contact 0-1 is bonded")
 slope()
 O.bodies[0].state.vel = (1, 0, 0)
 answer = limit_analysis()
 check.raises(ValueError, lambda: start_from(answer), "a floor that moves", "body 0 is held and moves")
+# A contact of another law.
+O.reset()
+O.materials.append(yade.FrictMat(young=1e9, poisson=0.3, density=2000, frictionAngle=0.5))
+O.engines = [
+    yade.ForceResetter(),
+    yade.InsertionSortCollider([yade.PotentialParticle2AABB()]),
+    yade.InteractionLoop([yade.Ig2_ConicPP_ConicPP_ScGeom()], [yade.Ip2_FrictMat_FrictMat_FrictPhys()],
+                         [yade.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+    yade.NewtonIntegrator(gravity=(0, 0, -9.81)),
+]
+O.dt = 1e-7
+floor()
+cuboid((1, 1, 1), (0, 0, 0.5))
+find_contacts()
+answer = limit_analysis()
+check.raises(ValueError, lambda: start_from(answer), "points", "FrictPhys has no springs against tilt")
+# A block hangs off the middle of its bond, which tears at one side below a strength of 2.2 times the weight over 1 m^2,
+# if it is rigid below 1.6.
+joints(cohesion=1e7, tensileStrength=1.9 * 2000 * 9.81)
+cuboid((1, 1, 1), (0, 0, 2), fixed=True)
+hanging = cuboid((1, 1, 1), (0.2, 0, 1))
+find_contacts()
+potential_particles.bond_contacts()
+O.step()
+O.bodies[hanging].state.vel = O.bodies[hanging].state.angVel = (0, 0, 0)
+answer = limit_analysis()
+check.raises(RuntimeError, lambda: start_from(answer), "a bond that tears", "no rest was found")
+check.true(O.interactions[0, hanging].phys.bonded, "the bond is as it was")
 # Within a hair of the edge, a bed of springs tilts where rigid blocks stand.
 joints()
 floor()

@@ -20,7 +20,7 @@ from .bodies import is_free
 from .limit_analysis import gravity_of, owner
 
 # Largest force that may be left on a body, over the mean weight; rounds go on until it is no more than LEFT.
-ENOUGH, LEFT = 1e-6, 1e-9
+ENOUGH, LEFT = 1e-6, 1e-8
 ROUNDS = 200
 # Rounds in which friction is that of the program.
 FIRST = 4
@@ -30,6 +30,8 @@ LEAST, WORSE, MOST, FACTOR = 1e-9, 1e-3, 1.0, 4.0
 LONG = 1e3
 # Stiffness along a joint that slides, over that of one that sticks: with none, nothing would hold its bodies.
 STICK = 1e-2
+# Strength of a bond while rest is sought, Pa: finite, for what divides by it.
+UNBROKEN = 1e30
 
 
 @dataclasses.dataclass(frozen=True)
@@ -47,25 +49,25 @@ def start_from(found):
 
     Bodies move by about the overlaps that carry them, velocities become 0; O.iter and O.time stay. Friction is that of
     the answer where bodies then press as its forces do; where there are more contacts than equilibrium needs, these
-    share the loads by their stiffness (`changed`). Contacts are joints (ConicJointMat) without bonds.
+    share the loads by their stiffness (`changed`). Contacts are joints (ConicJointMat); bonds take all of the program's
+    forces.
 
-    ValueError: an answer that does not stand or is none to "stands", or has other contacts than the scene; bonds, other
+    ValueError: an answer that does not stand or is none to "stands", or has other contacts than the scene; other
     laws, whose points carry a moment only by where they lie, held bodies that move. RuntimeError: no rest was found, as of scenes that stand by forces which their joints,
-    as soft as they are, cannot bring about; the scene is then as it was, but for velocities.
+    as soft as they are, cannot bring about, or their bonds only at their corners; the scene is then as it was, but for velocities.
     """
     import yade
     scene = _Scene(yade.O)
     programs = _programs(found)
     _refuse(yade.O, found, scene, programs)
     before = [(part, part.state.pos, part.state.ori) for parts in scene.parts for part in parts]
-    springs = [(one.phys, name, getattr(one.phys, name)) for one in scene.contacts()
-               for name in ("shearDisplacement", "twist", "broken")]
+    springs = [(one.phys, one.phys.dict()) for one in scene.contacts()]
     left, rounds = scene.rest(programs)
     if left > ENOUGH:
         for part, pos, ori in before:
             part.state.pos, part.state.ori = pos, ori
-        for physics, name, value in springs:
-            setattr(physics, name, value)
+        for physics, values in springs:
+            physics.updateAttrs(values)
         raise RuntimeError(f"no rest was found: after {rounds} rounds {left:.1e} of the mean weight is left on a body; "
                            "the loads are near their limit, or joints too soft for it")
     changed = [np.linalg.norm(np.array(one.phys.normalForce + one.phys.shearForce) - programs[one.id1, one.id2][0])
@@ -95,9 +97,6 @@ def _refuse(omega, found, scene, programs):
         if not hasattr(physics, "shearDisplacement"):
             raise ValueError(f"{type(physics).__name__} has no springs against tilt and twist: take the law of joints, "
                              "as by use_joints()")
-        if physics.bonded or physics.bondArea > 0.0:
-            raise ValueError(f"contact {contact.id1}-{contact.id2} is bonded: a bond holds by the poses of its bodies, and "
-                             "has no springs that could be set")
     for body in omega.bodies:
         if not is_free(owner(body)) and body.state.vel.norm() + body.state.angVel.norm() > 0.0:
             raise ValueError(f"body {body.id} is held and moves: set its velocities to 0")
@@ -136,11 +135,10 @@ class _Scene:
         with self._alone(), _unbroken(self.contacts()):
             for rounds in range(1, ROUNDS + 1):
                 freely = rounds > FIRST
-                if not freely:
-                    for contact in self.contacts():
-                        if (contact.id1, contact.id2) in programs:
-                            _set_friction(contact, *programs[contact.id1, contact.id2])
                 left = self.left(moves if freely else None)
+                if not freely:
+                    self.set_springs(programs)
+                    left = self.left()
                 now = self.unbalanced(left)
                 if not now > LEFT:
                     break
@@ -149,7 +147,16 @@ class _Scene:
                 last, moves = now, self.moves(left, drag, freely)
                 if rounds < FIRST:
                     self.move(moves)
+        # A bond ends in the step after the one that breaks it.
+        self.left()
         return self.unbalanced(self.left()), rounds
+
+    def set_springs(self, programs):
+        """Gives bonds, and friction of joints, the forces of the program."""
+        for contact in self.contacts():
+            if (contact.id1, contact.id2) in programs:
+                set_one = _set_bond if contact.phys.bondArea > 0.0 else _set_friction
+                set_one(contact, *programs[contact.id1, contact.id2])
 
     @contextlib.contextmanager
     def _alone(self):
@@ -223,20 +230,23 @@ class _Scene:
 
 @contextlib.contextmanager
 def _unbroken(contacts):
-    """Joints keep their strength while rest is sought: what slips on the way need not slip in the end."""
-    residual = {"tangensOfResidualFrictionAngle": "tangensOfFrictionAngle", "residualCohesion": "cohesion"}
-    whole = [one.phys for one in contacts if not one.phys.broken]
-    kept = [{name: getattr(physics, name) for name in residual} for physics in whole]
-    for physics in whole:
-        for name, peak in residual.items():
-            setattr(physics, name, getattr(physics, peak))
+    """Joints and bonds are whole while rest is sought: what is too much on the way need not be in the end."""
+    kept = []
+    for physics in [one.phys for one in contacts]:
+        names = ()
+        if physics.bonded:
+            names = dict.fromkeys(("tensileStrength", "cohesion"), UNBROKEN)
+        elif not physics.broken:
+            names = {"tangensOfResidualFrictionAngle": physics.tangensOfFrictionAngle, "residualCohesion": physics.cohesion,
+                     "broken": False}
+        kept += [(physics, name, getattr(physics, name)) for name in names]
+        for name in names:
+            setattr(physics, name, names[name])
     try:
         yield
     finally:
-        for physics, values in zip(whole, kept):
-            physics.broken = False
-            for name, value in values.items():
-                setattr(physics, name, value)
+        for physics, name, value in kept:
+            setattr(physics, name, value)
 
 
 def _set_friction(contact, force, moment):
@@ -251,6 +261,26 @@ def _set_friction(contact, force, moment):
         physics.twist = -twisting / physics.twistStiffness
 
 
+def _axes(contact):
+    """Of a bond, as columns: the normal and two across it."""
+    import yade
+    return np.array((yade.O.bodies[contact.id1].state.ori * contact.phys.bondTurn1).toRotationMatrix()).reshape(3, 3)
+
+
+def _set_bond(contact, force, moment):
+    """The springs of a bond hold the program's force, and its moment about the origin."""
+    import yade
+    physics, axes = contact.phys, _axes(contact)
+    stiffness = physics.bondArea * np.array([physics.normalStiffness, physics.shearStiffness, physics.shearStiffness])
+    bending = np.array(physics.bondMoments) * [physics.shearStiffness, physics.normalStiffness, physics.normalStiffness]
+    now = np.array(physics.normalForce + physics.shearForce)
+    turning = np.array(physics.bendingMoment + physics.twistMoment * contact.geom.normal)
+    wanted = moment - np.cross(contact.geom.contactPoint, force)
+    if (stiffness > 0.0).all() and (bending > 0.0).all():
+        physics.bondDisplacement += yade.Vector3(*(axes.T @ (now - force) / stiffness))
+        physics.bondRotation += yade.Vector3(*(axes.T @ (turning - wanted) / bending))
+
+
 def _stiffness(contact, slides):
     """(6, 6) of a contact at its point, against shifts and turns of body id2, world axes."""
     geometry, physics = contact.geom, contact.phys
@@ -258,6 +288,11 @@ def _stiffness(contact, slides):
     across = np.outer(normal, normal)
     found = np.zeros((6, 6))
     found[:3, :3] = physics.kn * across + physics.ks * (np.eye(3) - across)
+    if physics.bondArea > 0.0:
+        axes = _axes(contact)
+        moments = np.array(physics.bondMoments) * [physics.shearStiffness, physics.normalStiffness, physics.normalStiffness]
+        found[3:, 3:] = axes @ np.diag(moments) @ axes.T
+        return found
     # A point y of the patch presses by n u + (y x n) t, u the shift and t the turn.
     centroid, turned = np.array(geometry.centroid), -_cross(normal)
     moment = np.array(geometry.secondMoment) + geometry.contactArea * np.outer(centroid, centroid)
