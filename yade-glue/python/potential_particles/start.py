@@ -1,15 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A start of a simulation from the forces of limit analysis: the scene at rest, before its first step.
 
-Friction and twist of a contact are springs with a memory, and are set to the forces of the program. What presses in a
-contact follows from the poses of its two bodies, which are moved by Newton's method,
+Friction and twist of a joint are springs with a memory, and are set to the forces of the program; so are all springs of
+a bond. What presses in a joint follows from the poses of its two bodies, which are moved by Newton's method,
 
     (K + h D) u = w + f,
 
 w the weights of the bodies, f the other forces on them as YADE's own functors find them, K the stiffness of the
-contacts, D its first diagonal and u shifts and turns, until nothing is left. In the first rounds friction is set anew
-to that of the program; in those that follow its springs go with the bodies, as in a step, and slip where friction is at
-its limit. The drag h grows where a round leaves more than the one before: contacts open and slip all of a sudden.
+contacts, D its first diagonal and u shifts and turns, until nothing is left. In the first rounds these springs are set
+anew to the program; in those that follow they go with the bodies, as in a step, and slip where friction is at its
+limit. The drag h grows where a round leaves more than the one before: contacts open and slip all of a sudden.
 """
 import contextlib
 import dataclasses
@@ -22,7 +22,7 @@ from .limit_analysis import gravity_of, owner
 # Largest force that may be left on a body, over the mean weight; rounds go on until it is no more than LEFT.
 ENOUGH, LEFT = 1e-6, 1e-8
 ROUNDS = 200
-# Rounds in which friction is that of the program.
+# Rounds in which friction and bonds are those of the program; walls near their limit need all four (measured).
 FIRST = 4
 # Drag: the least, the first after a round that was worse, the most, and by how much it grows or falls.
 LEAST, WORSE, MOST, FACTOR = 1e-9, 1e-3, 1.0, 4.0
@@ -47,14 +47,14 @@ def start_from(found):
     """Brings the scene to rest with the forces of an answer of limit_analysis("stands"), so that a run begins in
     equilibrium: afterwards the largest force left on a body is at most 1e-6 of the mean weight. Returns a Start.
 
-    Bodies move by about the overlaps that carry them, velocities become 0; O.iter and O.time stay. Friction is that of
-    the answer where bodies then press as its forces do; where there are more contacts than equilibrium needs, these
-    share the loads by their stiffness (`changed`). Contacts are joints (ConicJointMat); bonds take all of the program's
-    forces.
+    Bodies move by about the overlaps that carry them, velocities become 0; O.iter and O.time stay. Contacts are joints
+    (ConicJointMat). Bonds take all of the program's forces, joints its friction where bodies press as it says; joints
+    beyond what equilibrium needs share the loads by their stiffness (`changed`).
 
-    ValueError: an answer that does not stand or is none to "stands", or has other contacts than the scene; other
-    laws, whose points carry a moment only by where they lie, held bodies that move. RuntimeError: no rest was found, as of scenes that stand by forces which their joints,
-    as soft as they are, cannot bring about, or their bonds only at their corners; the scene is then as it was, but for velocities.
+    ValueError: an answer that does not stand or is none to "stands", or has other contacts than the scene; other laws,
+    whose points carry a moment only by where they lie; held bodies that move. RuntimeError: no rest was found, as of
+    scenes that stand only by forces at corners, which no bed of springs and no bond can bring about; the scene is then
+    as it was, but for velocities.
     """
     import yade
     scene = _Scene(yade.O)
@@ -86,8 +86,8 @@ def _programs(found):
 
 def _refuse(omega, found, scene, programs):
     if found.question != "stands":
-        raise ValueError(f'this answers "{found.question}": a start takes limit_analysis("stands"), whose forces bear the '
-                         "loads that are there; a live load becomes one by O.forces.setPermF")
+        raise ValueError(f'this answers "{found.question}": a start takes limit_analysis("stands"), whose forces bear '
+                         "the loads that are there; a live load becomes one by O.forces.setPermF")
     if not found.stands:
         raise ValueError("the scene falls: no forces hold it, so that there is no start at rest")
     if {(one.id1, one.id2) for one in scene.contacts()} != set(programs):
@@ -217,9 +217,8 @@ class _Scene:
                 for column, other in ends:
                     blocks[row, column] = blocks.get((row, column), 0.0) + one.T @ stiffness @ other
         # Coordinates are lengths.
-        six = np.arange(6)
-        rows, columns = (np.concatenate([np.ravel(6 * pair[i] + (six[:, None] if i == 0 else six) + np.zeros((6, 6), int))
-                                         for pair in blocks]) for i in (0, 1))
+        in_block = np.indices((6, 6)).reshape(2, 1, 36)
+        rows, columns = (6 * np.array(list(blocks)).T[:, :, None] + in_block).reshape(2, -1)
         scale = self.scale.ravel()
         matrix = sparse.csc_matrix((np.ravel(list(blocks.values())) / (scale[rows] * scale[columns]), (rows, columns)))
         if self.diagonal is None:
@@ -237,8 +236,8 @@ def _unbroken(contacts):
         if physics.bonded:
             names = dict.fromkeys(("tensileStrength", "cohesion"), UNBROKEN)
         elif not physics.broken:
-            names = {"tangensOfResidualFrictionAngle": physics.tangensOfFrictionAngle, "residualCohesion": physics.cohesion,
-                     "broken": False}
+            names = {"tangensOfResidualFrictionAngle": physics.tangensOfFrictionAngle,
+                     "residualCohesion": physics.cohesion, "broken": False}
         kept += [(physics, name, getattr(physics, name)) for name in names]
         for name in names:
             setattr(physics, name, names[name])
@@ -267,12 +266,17 @@ def _axes(contact):
     return np.array((yade.O.bodies[contact.id1].state.ori * contact.phys.bondTurn1).toRotationMatrix()).reshape(3, 3)
 
 
+def _bending(physics):
+    """Stiffness of a bond against turns about its axes, N m."""
+    return np.array(physics.bondMoments) * [physics.shearStiffness, physics.normalStiffness, physics.normalStiffness]
+
+
 def _set_bond(contact, force, moment):
     """The springs of a bond hold the program's force, and its moment about the origin."""
     import yade
     physics, axes = contact.phys, _axes(contact)
     stiffness = physics.bondArea * np.array([physics.normalStiffness, physics.shearStiffness, physics.shearStiffness])
-    bending = np.array(physics.bondMoments) * [physics.shearStiffness, physics.normalStiffness, physics.normalStiffness]
+    bending = _bending(physics)
     now = np.array(physics.normalForce + physics.shearForce)
     turning = np.array(physics.bendingMoment + physics.twistMoment * contact.geom.normal)
     wanted = moment - np.cross(contact.geom.contactPoint, force)
@@ -290,8 +294,7 @@ def _stiffness(contact, slides):
     found[:3, :3] = physics.kn * across + physics.ks * (np.eye(3) - across)
     if physics.bondArea > 0.0:
         axes = _axes(contact)
-        moments = np.array(physics.bondMoments) * [physics.shearStiffness, physics.normalStiffness, physics.normalStiffness]
-        found[3:, 3:] = axes @ np.diag(moments) @ axes.T
+        found[3:, 3:] = axes @ np.diag(_bending(physics)) @ axes.T
         return found
     # A point y of the patch presses by n u + (y x n) t, u the shift and t the turn.
     centroid, turned = np.array(geometry.centroid), -_cross(normal)
