@@ -16,10 +16,10 @@ import dataclasses
 
 import numpy as np
 
-from .bodies import is_free
+from .bodies import is_free, lasting
 from .limit_analysis import gravity_of, owner
 
-# Largest force that may be left on a body, over the mean weight; rounds go on until it is no more than LEFT.
+# Largest force that may be left on a body, over the mean load of one; rounds go on until it is no more than LEFT.
 ENOUGH, LEFT = 1e-6, 1e-8
 ROUNDS = 200
 # Rounds in which friction and bonds are those of the program; walls near their limit need all four (measured).
@@ -37,15 +37,16 @@ UNBROKEN = 1e30
 @dataclasses.dataclass(frozen=True)
 class Start:
     """How a scene was brought to rest."""
-    unbalanced: float  #: the largest force, or torque over the size of the body, left on a body, over the mean weight
+    unbalanced: float  #: the largest force, or torque over size, left on a body, over the mean load of one
     rounds: int  #: of Newton's method
     moved: float  #: the largest shift of a body, length
-    changed: float  #: the largest difference of the force of a contact from the program's, over the mean weight
+    changed: float  #: the largest difference of the force of a contact from the program's, over the mean load of one
 
 
 def start_from(found):
     """Brings the scene to rest with the forces of an answer of limit_analysis("stands"), so that a run begins in
-    equilibrium: afterwards the largest force left on a body is at most 1e-6 of the mean weight. Returns a Start.
+    equilibrium: the largest force then left on a body is at most 1e-6 of the mean load, weight and lasting force, of
+    one. Returns a Start.
 
     Bodies move by about the overlaps that carry them, velocities become 0; O.iter and O.time stay. Contacts are joints
     (ConicJointMat). Bonds take all of the program's forces, joints its friction where bodies press as it says; joints
@@ -63,17 +64,17 @@ def start_from(found):
     before = [(part, part.state.pos, part.state.ori) for parts in scene.parts for part in parts]
     springs = [(one.phys, one.phys.dict()) for one in scene.contacts()]
     left, rounds = scene.rest(programs)
-    if left > ENOUGH:
+    if not left <= ENOUGH:
         for part, pos, ori in before:
             part.state.pos, part.state.ori = pos, ori
         for physics, values in springs:
             physics.updateAttrs(values)
-        raise RuntimeError(f"no rest was found: after {rounds} rounds {left:.1e} of the mean weight is left on a body; "
+        raise RuntimeError(f"no rest was found: after {rounds} rounds {left:.1e} of the mean load is left on a body; "
                            "the loads are near their limit, or joints too soft for it")
     changed = [np.linalg.norm(np.array(one.phys.normalForce + one.phys.shearForce) - programs[one.id1, one.id2][0])
                for one in scene.contacts() if (one.id1, one.id2) in programs]
     return Start(left, rounds, max((part.state.pos - pos).norm() for part, pos, _ in before),
-                 max(changed) / scene.weight)
+                 max(changed) / scene.mean_load)
 
 
 def _programs(found):
@@ -120,7 +121,8 @@ class _Scene:
                 self.parts[place[own.id]].append(body)
         masses = np.array([body.state.mass for body in self.bodies])
         self.weights = np.pad(np.outer(masses, gravity_of(omega.engines)), ((0, 0), (0, 3)))
-        self.weight = np.linalg.norm(self.weights, axis=1).mean()
+        lasts = [list(lasting(omega.forces.permF, body)) for body in self.bodies]
+        self.mean_load = np.linalg.norm(self.weights[:, :3] + lasts, axis=1).mean()
         # The radius of a ball of its inertia will do for the size of a body.
         self.sizes = np.sqrt(2.5 * np.array([max(body.state.inertia) for body in self.bodies]) / masses)
         self.scale = np.repeat(np.stack([np.ones_like(self.sizes), self.sizes], axis=1), 3, axis=1)
@@ -130,7 +132,7 @@ class _Scene:
         return [one for one in self.omega.interactions if one.isReal]
 
     def rest(self, programs):
-        """Moves bodies until they rest: (largest force left over the mean weight, rounds)."""
+        """Moves bodies until they rest: (largest force left over the mean load of one, rounds)."""
         last, drag, moves = np.inf, LEAST, None
         with self._alone(), _unbroken(self.contacts()):
             for rounds in range(1, ROUNDS + 1):
@@ -201,8 +203,8 @@ class _Scene:
                 part.state.vel, part.state.angVel = rate * (shift + turn.cross(arm)), rate * turn
 
     def unbalanced(self, left):
-        """The largest force, or torque over size, over the mean weight."""
-        return np.linalg.norm((left / self.scale).reshape(-1, 3), axis=1).max() / self.weight
+        """The largest force, or torque over size, over the mean load of a body."""
+        return np.linalg.norm((left / self.scale).reshape(-1, 3), axis=1).max() / self.mean_load
 
     def moves(self, left, drag, slides):
         """u (n, 6). slides: friction at its limit stays there."""
