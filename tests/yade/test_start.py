@@ -142,7 +142,7 @@ O.interactions[0, 1].phys.broken = False
 stays("cohesion", 1e-6)
 check.true(not O.interactions[0, 1].phys.broken, "the joint is whole")
 
-# What has no start is refused by name, and the scene stays as it was.
+# What has no start is refused by name.
 slope()
 answer = limit_analysis("load", push=(1, 0, 0))
 check.raises(ValueError, lambda: start_from(answer), "a load factor", 'this answers "load"')

@@ -19,7 +19,7 @@ import numpy as np
 from .bodies import is_free, lasting
 from .limit_analysis import gravity_of, owner
 
-# Largest force that may be left on a body, over the mean load of one; rounds go on until it is no more than LEFT.
+# Largest force that may be left on a body, over the mean load of one; the rounds end at LEFT.
 ENOUGH, LEFT = 1e-6, 1e-8
 ROUNDS = 200
 # Rounds in which friction and bonds are those of the program; walls near their limit need all four (measured).
