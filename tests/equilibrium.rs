@@ -64,6 +64,23 @@ fn cohesion_and_tension() {
     BOTH.into_iter().for_each(|flow| close(load_factor(&tall, flow).unwrap().factor, (0.5 + 0.3) / 2.0, 1e-6));
 }
 
+/// Of all forces those of the least norm: a ceiling that may pull takes half of the weight, whatever its strength.
+#[test]
+fn least_norm_with_tension() {
+    for (friction, cohesion) in [(0.5, 10.0), (0.5, 40.0), (0.0, 0.0)] {
+        let mut scene = block(1.0, 0.0, friction);
+        let ceiling = level([-0.5, -0.5], [0.5, 0.5], 1.0);
+        scene.contacts.push(Contact::new([0, 1], ceiling, -Vector3::z(), friction));
+        for contact in &mut scene.contacts {
+            (contact.tension, contact.cohesion) = (50.0, cohesion);
+        }
+        let found = stands(&scene).unwrap();
+        let of_floor: Vector3<f64> = found.forces[..4].iter().sum();
+        assert!((of_floor - v(0.0, 0.0, 0.5)).norm() < 1e-6, "{friction} {cohesion}: {of_floor}");
+        assert!(found.forces.iter().all(|force| (force - v(0.0, 0.0, 0.125)).norm() < 1e-6));
+    }
+}
+
 /// The upper one on another joint: the weaker joint decides, with what lies above it.
 #[test]
 fn two_blocks_stacked() {

@@ -170,8 +170,12 @@ impl Program {
         if !corner.counts() {
             return self.places.push(Rows::None);
         }
+        let smooth = slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH;
+        let cone = !smooth && slope > 0.0 && growth == 0.0 && tension * slope >= base;
+        // The multiplier of the normal row is n and what the cone allows of tension.
+        let shift = if cone { base / slope } else { tension };
         // Columns of q in the order of the frame: ε q is p, so that f = f̄ + q.
-        let q = near.map(|(weight, force)| force.map(|part| (self.pulled(weight, part), weight)));
+        let q = near.map(|(weight, [n, t, s])| [n + shift, t, s].map(|part| (self.pulled(weight, part), weight)));
         let along = |axis: usize, factor: f64| {
             let of_bodies = corner.relative(axis).map(|(column, value)| (column, factor * value));
             let mut entries: Vec<(usize, f64)> = of_bodies.collect();
@@ -181,14 +185,14 @@ impl Program {
             entries
         };
         let first = self.right.len();
-        if slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH {
+        if smooth {
             corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
             self.row(along(0, 1.0), 0.0);
             self.cones.push(SupportedConeT::NonnegativeConeT(1));
             return self.places.push(Rows::Smooth(first));
         }
-        if slope > 0.0 && growth == 0.0 && tension * slope >= base {
-            corner.relative(0).for_each(|(column, value)| self.cost[column] += base / slope * value);
+        if cone {
+            corner.relative(0).for_each(|(column, value)| self.cost[column] += shift * value);
             self.row(along(0, 1.0), 0.0);
             self.row(along(1, slope), 0.0);
             self.row(along(2, slope), 0.0);

@@ -52,6 +52,7 @@ from .outside import protect_runs
 from .packing import add_packing, pack
 from .saves import save
 from .specimen import grading_curve, sampled_porosity
+from .start import start_from
 from .time_step import critical_time_step, time_stepper
 
 __version__ = "0.2.0"
@@ -59,9 +60,9 @@ __version__ = "0.2.0"
 __all__ = [
     "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
     "bond_contacts", "check", "clump", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
-    "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "porosity", "prepare",
-    "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "stress", "time_stepper", "to_lammps",
-    "use_joints"
+    "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "plot_equilibrium",
+    "porosity", "prepare", "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "start_from",
+    "stress", "time_stepper", "to_lammps", "use_joints"
 ]
 
 
@@ -277,4 +278,4 @@ if not _take_numpy_names() or _in_yade:
     _glue = _load()
     # After the classes that they serve.
     from .check import SceneWarning, check  # noqa: F401
-    from .output import Mesh, Recorder, mesh, plot, save_mesh  # noqa: F401
+    from .output import Mesh, Recorder, mesh, plot, plot_equilibrium, save_mesh  # noqa: F401

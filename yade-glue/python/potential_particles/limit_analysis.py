@@ -19,6 +19,8 @@ FLAT = 0.02
 SAME = 1e-9
 # A scene is at rest if its bodies are slower than this part of the speed of a fall by their own size.
 SLOW = 0.01
+# A contact carries nothing if its force is below this part of the largest one, to which forces are balanced.
+NOTHING = 1e-6
 
 
 class Body(ctypes.Structure):
@@ -51,6 +53,7 @@ class Equilibrium:
     unbalanced: float  #: the largest force that is left on a body, over the mean load of one
     excess: float  #: the largest friction beyond its strength at a corner, over the mean load of a body
     programs: int  #: number of cone programs
+    used: np.ndarray  #: (contacts,) share of friction and cohesion that is used; 0 where a contact carries nothing
 
     def __repr__(self):
         said = "stands" if self.stands else "falls"
@@ -78,8 +81,8 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
     asked(question)
     if yade.O.periodic:
         raise ValueError("limit analysis has no periodic cells: hold bodies at the borders in their place")
-    gravity = _gravity(yade.O.engines)
-    free = {one.id for one in map(_owner, yade.O.bodies) if is_free(one)}
+    gravity = gravity_of(yade.O.engines)
+    free = {one.id for one in map(owner, yade.O.bodies) if is_free(one)}
     live = {int(body): load for body, load in (loads or {}).items()}
     if unknown := [body for body in live if body not in free]:
         raise ValueError(f"loads names body {unknown[0]}: no body of this id, or clump of such bodies, is free")
@@ -116,7 +119,21 @@ def solved(question, dilatant, bodies, names, rows, pairs):
     return Equilibrium(question, bool(result.stands), result.factor, pairs, corners,
                        np.repeat(np.arange(len(rows)), counts), forces,
                        {name: (row[:3], row[3:]) for name, row in zip(names, velocities)}, result.unbalanced,
-                       result.excess, result.programs)
+                       result.excess, result.programs, _used(rows, np.split(forces, np.cumsum(counts)[:-1])))
+
+
+def _used(rows, forces):
+    used = np.zeros(len(rows))
+    totals = np.array([of.sum(axis=0) for of in forces])
+    sizes = np.linalg.norm(totals, axis=1)
+    for place in np.flatnonzero(sizes > NOTHING * sizes.max()):
+        _, normal, (friction, cohesion, _), _, area = rows[place]
+        normal = np.array(normal) / np.linalg.norm(normal)
+        pressing = totals[place] @ normal
+        strength = friction * max(pressing, 0.0) + cohesion * area
+        along = np.linalg.norm(totals[place] - pressing * normal)
+        used[place] = along / strength if strength > 0.0 else 0.0
+    return used
 
 
 def asked(question):
@@ -126,13 +143,13 @@ def asked(question):
     return question
 
 
-def _owner(body):
+def owner(body):
     """What moves: the clump of a member."""
     import yade
     return yade.O.bodies[body.clumpId] if body.isClumpMember else body
 
 
-def _gravity(engines):
+def gravity_of(engines):
     import yade
     for engine in engines:
         if isinstance(engine, yade.NewtonIntegrator):
@@ -199,7 +216,7 @@ def _polygon(contact):
         flat = clipped(normal, point, bounds, 10.0 * reach)
         corners = flat if len(flat) else corners
     area = 0.5 * np.linalg.norm(np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0))
-    return tuple(_owner(body).id for body in pair), contact, corners, float(area)
+    return tuple(owner(body).id for body in pair), contact, corners, float(area)
 
 
 def _bounds(body, outwards):

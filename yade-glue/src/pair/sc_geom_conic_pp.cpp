@@ -102,6 +102,7 @@ void ScGeomConicPP::pyRegisterClass(py::object scope)
     ofPatch("patchEnergy", &ContactPatch::energy,
             "Elastic energy over the stiffness per area, m^4; computed if O.trackEnergy.");
     ofPatch("centroid", &ContactPatch::centroid, "Centroid of the patch, from contactPoint, m.");
+    ofPatch("secondMoment", &ContactPatch::secondMoment, "Second moments of the patch's area about its centroid, m^4.");
     ofPatch("patchOfPoint", &ContactPatch::ofPoint,
             "Whether no patch was found in the last step, and the contact point stands in for it.");
 }

@@ -10,9 +10,11 @@
     light.py       sun and sky
     picture.py     the picture of a scene
     recorder.py    frames for ParaView, while the scene runs
+    equilibrium_picture.py, limit_picture.py    forces and mechanism of limit analysis, without and with YADE's bodies
 """
+from .limit_picture import plot_equilibrium
 from .mesh import Mesh, mesh, save_mesh
 from .picture import plot
 from .recorder import Recorder
 
-__all__ = ["Mesh", "Recorder", "mesh", "plot", "save_mesh"]
+__all__ = ["Mesh", "Recorder", "mesh", "plot", "plot_equilibrium", "save_mesh"]
