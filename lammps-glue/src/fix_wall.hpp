@@ -12,8 +12,7 @@
 #pragma once
 
 #include "plugin-common/point_law.hpp"
-#include "joint_step.hpp"
-#include "kept_patch.hpp"
+#include "joint_history.hpp"
 #include "mesh.hpp"
 
 #include "plugin-common/seam.hpp"

@@ -3,7 +3,6 @@
 // What a script says of a wall.
 #include "fix_wall.hpp"
 #include "entered.hpp"
-#include "joint_words.hpp"
 
 #include "atom.h"
 #include "error.h"

@@ -4,11 +4,11 @@
 #include "abi/knksphys.hpp"
 #include "abi/scene.hpp"
 
-#include "answer_path.hpp"
+#include "counters.hpp"
 #include "ig2_conic_pp.hpp"
 #include "pair_in_scene.hpp"
 #include "shape/particle_of.hpp"
-#include "particle/ray.hpp"
+#include "particle/particle.hpp"
 #include "loop/relative_motion.hpp"
 #include "loop/step.hpp"
 
