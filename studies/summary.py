@@ -1,17 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The end of a run: targets and tables for people, bars of what a step is made of, and summary.json for programs."""
 
-import importlib.util
-from pathlib import Path
-
 import machine
-
-# The package's module of files alone: the package itself needs YADE.
-_FILES = Path(__file__).resolve().parents[1] / "yade-glue" / "python" / "potential_particles" / "files.py"
-_spec = importlib.util.spec_from_file_location("files", _FILES)
-_files = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(_files)
-write_summary = _files.write_summary
+# The package's module alone, by a link: the package itself needs YADE.
+from files import write_summary  # noqa: F401
 
 
 def target(name, sense, limit, measured, **more):
