@@ -4,8 +4,8 @@
 // BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Class), if scenes hold it.
 #pragma once
 
-// Boost exports a class for those archives that were included before BOOST_CLASS_EXPORT: here the four that YADE saves to
-// and loads from.
+// Boost exports a class for those archives that were included before BOOST_CLASS_EXPORT: here the four that YADE saves
+// to and loads from.
 #include <boost/archive/binary_iarchive.hpp>
 #include <boost/archive/binary_oarchive.hpp>
 #include <boost/archive/xml_iarchive.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The extension module potential_particles._glue, and the entry of our classes into YADE. The package's __init__.py decides what to call.
+// The extension module potential_particles._glue, and the entry of our classes into YADE. The package's __init__.py
+// decides what to call.
 #include "abi/registry.hpp"
 
 #include "check/load_check.hpp"
