@@ -25,7 +25,7 @@ constexpr const char* expected = "expected KN KS FRICTION RESTITUTION, then plan
 } // namespace
 
 FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
-    : Fix(lmp, count, arguments)
+    : CarryingFix(lmp, count, arguments)
 {
     restart_peratom = restart_global = create_attribute = 1;
     maxexchange_dynamic = 1;
