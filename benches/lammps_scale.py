@@ -10,7 +10,6 @@ out/lammps/scale; then summary.json, lammps_scale.png and a table follow. One ra
 fastest window, two by the clock, for which the machine must be left alone. `make lammps` comes first.
 """
 
-import json
 import os
 import re
 import subprocess
@@ -29,7 +28,7 @@ sys.path[:0] = [str(TOP / "studies"), str(TOP / "lammps-glue" / "python"), str(T
 
 import timed_run
 from potential_particles_lammps import read_shapes
-from summary import made, print_table, print_targets, target, write_summary
+from summary import made, print_table, print_targets, results_of, target, write_summary
 
 OUT = TOP / "out" / "lammps" / "scale"
 PYRAMIDS, SPHERES, YADE, POLYHEDRA = "pyramids", "spheres", "yade", "polyhedra"
@@ -322,12 +321,4 @@ def report(runs):
     figure.savefig(OUT / "lammps_scale.png")
 
 
-def main():
-    OUT.mkdir(parents=True, exist_ok=True)
-    for name in sys.argv[1:] or [name for name in RUNS if not (OUT / f"{name}.json").exists()]:
-        print(name, flush=True)
-        (OUT / f"{name}.json").write_text(json.dumps(measure(name)))
-    report({name: json.loads((OUT / f"{name}.json").read_text()) for name in RUNS if (OUT / f"{name}.json").exists()})
-
-
-main()
+report(results_of(OUT, RUNS, measure))

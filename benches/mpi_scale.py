@@ -25,7 +25,7 @@ import matplotlib.pyplot as plt
 TOP = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(TOP / "studies"))
 
-from summary import made, print_columns, print_targets, target, write_summary
+from summary import made, print_columns, print_targets, results_of, target, write_summary
 
 OUT = TOP / "out" / "mpi" / "scale"
 SMALL, LARGE = "8,5", "20,10"  # tiles of 504 bodies
@@ -55,7 +55,9 @@ def measure(name):
     tile = OUT / "tile.npz"
     if not tile.exists():
         start(1, 2, TILE=str(tile))
-    start(ranks, threads, TILE=str(tile), TILES=tiles, BOXES=boxes, STEPS=str(steps), RESULT=str(OUT / f"{name}.json"))
+    result = OUT / "result.json"
+    start(ranks, threads, TILE=str(tile), TILES=tiles, BOXES=boxes, STEPS=str(steps), RESULT=str(result))
+    return json.loads(result.read_text())
 
 
 def start(ranks, threads, **environment):
@@ -209,16 +211,8 @@ def draw(rows, model):
     figure.savefig(OUT / "scale.png")
 
 
-def main():
-    OUT.mkdir(parents=True, exist_ok=True)
-    for name in sys.argv[1:] or [name for name in RUNS if not (OUT / f"{name}.json").exists()]:
-        print(name, flush=True)
-        measure(name)
-    missing = [name for name in RUNS if not (OUT / f"{name}.json").exists()]
-    if missing:
-        print(f"still to be run: {', '.join(missing)}")
-        return
-    report({name: json.loads((OUT / f"{name}.json").read_text()) for name in RUNS})
-
-
-main()
+found = results_of(OUT, RUNS, measure)
+if missing := [name for name in RUNS if name not in found]:
+    print(f"still to be run: {', '.join(missing)}")
+else:
+    report(found)

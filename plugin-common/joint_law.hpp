@@ -5,7 +5,7 @@
 
 #include "contact_patch.hpp"
 #include "joint.hpp"
-#include "limit_surface.hpp"
+#include "strength.hpp"
 #include "patch_rim.hpp"
 
 namespace potential_particles {

@@ -43,10 +43,16 @@ RESTITUTION_AT_REST, RESTITUTION = 0.3, 0.01  # of joints
 # Of the time in which the springs, and tilting, turn one radian.
 SPRING_STEP, TILT_STEP = 0.2, 0.4
 QUIET = 1e-5  # of the speed that belongs to the overlap
-# Blocks with faces that bulge (k > 0) need springs softer than the bulge k r / 2, up to a part of r.
-OVERLAP_OVER_BULGE, MOST_OVERLAP = 20.0, 0.1
-
 FREE_MASK, FIXED_MASK, FIXED_ONLY = 0b01, 0b11, 0b10
+
+
+def soft_overlap(least, sphericity, rounding):
+    """Overlap over the size: soft enough for faces that bulge (k > 0), 20 times k r, up to a part of r.
+
+    The faces of a particle bulge by about k r / 2. If tilting is not much stiffer than the springs, the two swing
+    together when a block slides, and drag it along or hold it.
+    """
+    return max(least, min(20.0 * sphericity, 0.1) * rounding)
 
 
 class Scene:
@@ -66,8 +72,7 @@ class Scene:
         self.density, self.shear = density, shear
         self.load = load * density * GRAVITY
         if overlap is None:
-            overlap = max(OVERLAP_OF_JOINTS if JOINTS else OVERLAP,
-                          min(OVERLAP_OVER_BULGE * sphericity, MOST_OVERLAP) * rounding)
+            overlap = soft_overlap(OVERLAP_OF_JOINTS if JOINTS else OVERLAP, sphericity, rounding)
         self.overlap = size * overlap
         self.stiffness = self.load / self.overlap
         # The unit of motions: joints give way by more than their overlap.

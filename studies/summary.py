@@ -1,17 +1,12 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The end of a run: targets and tables for people, bars of what a step is made of, and summary.json for programs."""
 
-import importlib.util
-from pathlib import Path
+import json
+import sys
 
 import machine
-
-# The package's module of files alone: the package itself needs YADE.
-_FILES = Path(__file__).resolve().parents[1] / "yade-glue" / "python" / "potential_particles" / "files.py"
-_spec = importlib.util.spec_from_file_location("files", _FILES)
-_files = importlib.util.module_from_spec(_spec)
-_spec.loader.exec_module(_files)
-write_summary = _files.write_summary
+# The package's module alone, by a link: the package itself needs YADE.
+from files import write_summary  # noqa: F401
 
 
 def target(name, sense, limit, measured, **more):
@@ -59,6 +54,18 @@ def markdown(heads, rows):
     """A table as text."""
     lines = [heads, ["---"] * len(heads), *rows]
     return "\n".join("| " + " | ".join(map(str, row)) + " |" for row in lines)
+
+
+def results_of(folder, names, measure):
+    """{name: result} of runs, each kept in folder/NAME.json. Those that the command line names are measured, by default
+    all that have no result yet; what the others lack is left out.
+    """
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {name: folder / f"{name}.json" for name in names}
+    for name in sys.argv[1:] or [name for name, file in files.items() if not file.exists()]:
+        print(name, flush=True)
+        files[name].write_text(json.dumps(measure(name)))
+    return {name: json.loads(file.read_text()) for name, file in files.items() if file.exists()}
 
 
 def made(command):

@@ -3,6 +3,7 @@
 
 from dataclasses import dataclass, replace
 
+from block_scene import soft_overlap
 from joint_planes import Plane
 
 # Critical friction angles of the paper's wedge found by others, degrees.
@@ -14,8 +15,6 @@ DIRECTION_TARGET = 0.1  # of the direction of sliding, degrees
 FORCE_TARGET = 1e-3  # of both normal forces, relative
 
 LEAST_OVERLAP = 1e-4  # of the size
-OVERLAP_OVER_BULGE = 20.0  # over k r
-MOST_OVERLAP = 0.1  # of r
 
 
 @dataclass(frozen=True)
@@ -35,14 +34,10 @@ class Case:
 
     @property
     def overlap(self):
-        """Weight over normal stiffness: soft enough for faces that bulge, where they do.
-
-        The faces of a particle bulge by about k r / 2. If tilting is not much stiffer than the springs,
-        the two swing together when the wedge slides, and drag it along or hold it.
-        """
+        """Weight over normal stiffness."""
         if self.weight_over_stiffness is not None:
             return self.weight_over_stiffness
-        return max(LEAST_OVERLAP, min(OVERLAP_OVER_BULGE * self.sphericity, MOST_OVERLAP) * self.rounding)
+        return soft_overlap(LEAST_OVERLAP, self.sphericity, self.rounding)
 
     @property
     def target(self):

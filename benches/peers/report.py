@@ -6,7 +6,6 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
-from absent import PUBLISHED
 from contestants import CONTACT, CONTESTANTS, OURS
 from measure_pairs import CURVE_GROUPS
 from summary import markdown, target
@@ -107,10 +106,6 @@ def contestant_table(rows, found):
         error = "–" if worst is None else f"{worst:.1e}, {of_one[0]['error_of']}"
         lines.append([*cells, error, *map(total, ("failed", "wrong", "pairs"))])
     return markdown(heads, lines)
-
-
-def published_table():
-    return markdown(("who", "what", "their figure", "their machine", "here"), PUBLISHED)
 
 
 def draw(rows, curves, line, path):

@@ -48,7 +48,8 @@ def main():
         write_results(parts, summary)
     if options.only in (None, "piles"):
         parts += table_part("piles", "A pile", measure_piles, found, options.quick, summary)
-    parts += ["## As others publish it", report.published_table()]
+    # Figures that others publish, on their machines: of the paper, and of codes that no package registry has.
+    parts += ["## As others publish it", (install.HERE / "published.md").read_text().strip()]
     summary["load_after"] = measure_pairs.load()
     write_results(parts, summary)
     print_targets(summary["targets"])

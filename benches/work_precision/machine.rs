@@ -14,11 +14,10 @@ pub struct Machine {
     pub library: &'static str,
     pub rustc: String,
     pub clarabel: String,
-    pub yade: Option<String>,
 }
 
 impl Machine {
-    pub fn here(yade: Option<String>) -> Self {
+    pub fn here() -> Self {
         Self {
             processor: field("/proc/cpuinfo", "model name", ':').unwrap_or_else(|| std::env::consts::ARCH.into()),
             cores: std::thread::available_parallelism().map_or(0, usize::from),
@@ -27,7 +26,6 @@ impl Machine {
             library: env!("CARGO_PKG_VERSION"),
             rustc: output("rustc", &["--version"]),
             clarabel: clarabel(),
-            yade,
         }
     }
 }

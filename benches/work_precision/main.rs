@@ -39,7 +39,7 @@ fn main() -> io::Result<()> {
     } else {
         Effort { pyramids: 500, polyhedra: 100, rounds: 9, stride: 1 }
     };
-    let machine = machine::Machine::here(None);
+    let machine = machine::Machine::here();
     println!("{}, {} cores, {}, {}", machine.processor, machine.cores, machine.system, machine.date);
     let groups = speed::measure(&effort);
     let mut targets = speed::targets(&groups);

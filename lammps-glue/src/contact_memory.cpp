@@ -19,7 +19,7 @@ using namespace LAMMPS_NS;
 namespace potential_particles {
 
 ContactMemory::ContactMemory(LAMMPS* lmp, int count, char** arguments)
-    : Fix(lmp, count, arguments)
+    : CarryingFix(lmp, count, arguments)
 {
     restart_peratom = 1;
     restart_global = 1; // so that write_restart is called before atoms are packed
@@ -90,7 +90,7 @@ void ContactMemory::collect()
         forEachLocal(slot, [&](int i, int j) {
             partners[ranges[i].first + ranges[i].count++] = { pair->tagAtBuild(j), slot, pair->markAtBuild(slot) };
         });
-    maxexchange = withoutPartners;
+    maxexchange = withoutContacts;
     for (int i = 0; i < atom->nlocal; ++i) {
         ranges[i].own = atom->tag[i];
         maxexchange = std::max(maxexchange, sizeOf(i));
@@ -137,7 +137,7 @@ void ContactMemory::checkIds() const
 {
     std::string why;
     for (int i = 0; pair && i < atom->nlocal && why.empty(); ++i)
-        if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > withoutPartners)
+        if (ranges[i].own && ranges[i].own != atom->tag[i] && sizeOf(i) > withoutContacts)
             why = fmt::format("pair_style potential/particle: the atom of ID {} has the ID {} now, and contacts know "
                               "their bodies by IDs: give 'compress no' to delete_atoms, and "
                               "leave out 'reset_atoms id'",
@@ -154,7 +154,7 @@ int ContactMemory::countOf(const Partner& partner) const
 
 int ContactMemory::sizeOf(int i) const
 {
-    int size = withoutPartners;
+    int size = withoutContacts;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n)
         if (lasts(partners[n]))
             size += ofPartner + countOf(partners[n]);
@@ -208,13 +208,9 @@ void ContactMemory::write_restart(FILE* file)
         own = fromFile.sums;
     own.back() = 0;
     for (int i = 0; i < atom->nlocal; ++i)
-        own.back() += sizeOf(i) > withoutPartners;
+        own.back() += sizeOf(i) > withoutContacts;
     MPI_Reduce(own.data(), all.sums.data(), static_cast<int>(own.size()), MPI_DOUBLE, MPI_SUM, 0, world);
-    if (comm->me == 0) {
-        const int size = sizeof all;
-        fwrite(&size, sizeof size, 1, file);
-        fwrite(&all, sizeof all, 1, file);
-    }
+    writeSaved(file, all);
 }
 
 void ContactMemory::restart(char* saved)
@@ -242,7 +238,7 @@ void ContactMemory::copy_arrays(int from, int to, int) { ranges[to] = ranges[fro
 // Contacts and bonds alone: pairs that are near, but apart, have no history.
 int ContactMemory::pack(int i, double* buffer) const
 {
-    int m = withoutPartners, count = 0;
+    int m = withoutContacts, count = 0;
     for (int n = ranges[i].first; n < ranges[i].first + ranges[i].count; ++n) {
         const Partner& partner = partners[n];
         if (!lasts(partner))
@@ -267,7 +263,7 @@ int ContactMemory::unpack(int i, const double* buffer)
 {
     ubuf own(buffer[1]);
     ranges[i] = { static_cast<int>(partners.size()), static_cast<int>(buffer[0]), static_cast<tagint>(own.i) };
-    int m = withoutPartners;
+    int m = withoutContacts;
     for (int n = 0; n < ranges[i].count; ++n) {
         ubuf other(buffer[m++]);
         partners.push_back({ static_cast<tagint>(other.i), -1 - static_cast<int>(values.size()), buffer[m++] });
@@ -276,35 +272,6 @@ int ContactMemory::unpack(int i, const double* buffer)
         m += numbers;
     }
     return m;
-}
-
-int ContactMemory::pack_exchange(int i, double* buffer) { return pack(i, buffer); }
-
-int ContactMemory::unpack_exchange(int i, double* buffer) { return unpack(i, buffer); }
-
-int ContactMemory::pack_restart(int i, double* buffer)
-{
-    const int size = 1 + pack(i, buffer + 1);
-    buffer[0] = size;
-    return size;
-}
-
-void ContactMemory::unpack_restart(int i, int nth)
-{
-    const double* extra = atom->extra[i];
-    for (int n = 0; n < nth; ++n)
-        extra += static_cast<int>(extra[0]);
-    unpack(i, extra + 1);
-}
-
-int ContactMemory::size_restart(int i) { return 1 + sizeOf(i); }
-
-int ContactMemory::maxsize_restart()
-{
-    int most = 1 + withoutPartners;
-    for (int i = 0; i < atom->nlocal; ++i)
-        most = std::max(most, size_restart(i));
-    return most;
 }
 
 double ContactMemory::memory_usage()

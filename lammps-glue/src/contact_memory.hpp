@@ -6,7 +6,7 @@
 // for a fixed number of values; the wheel has no header of it, and bonds have as many values as their area has corners.
 #pragma once
 
-#include "fix.h"
+#include "carrying_fix.hpp"
 
 #include <array>
 #include <vector>
@@ -15,7 +15,7 @@ namespace potential_particles {
 
 class PairPotentialParticle;
 
-class ContactMemory : public LAMMPS_NS::Fix {
+class ContactMemory : public CarryingFix {
 public:
     ContactMemory(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
     ~ContactMemory() override;
@@ -32,12 +32,6 @@ public:
     void grow_arrays(int most) override;
     void copy_arrays(int from, int to, int) override;
     void set_arrays(int i) override { ranges[i] = {}; }
-    int pack_exchange(int i, double* buffer) override;
-    int unpack_exchange(int i, double* buffer) override;
-    int pack_restart(int i, double* buffer) override;
-    void unpack_restart(int i, int nth) override;
-    int size_restart(int i) override;
-    int maxsize_restart() override;
     double memory_usage() override;
 
     // The other body of a contact of a local atom, and where the contact is remembered: a slot of the pair style (>=
@@ -84,10 +78,9 @@ private:
     bool lasts(const Partner& partner) const;
     int countOf(const Partner& partner) const;
     static constexpr int ofPartner = 3; // numbers of each, before those that the pair style writes
-    static constexpr int withoutPartners = 2; // numbers that pack() writes of an atom: how many partners, and its ID
-    int sizeOf(int i) const; // of all that pack() writes
-    int pack(int i, double* buffer) const;
-    int unpack(int i, const double* buffer);
+    int sizeOf(int i) const override;
+    int pack(int i, double* buffer) const override;
+    int unpack(int i, const double* buffer) override;
 
     std::vector<Range> ranges; // of atoms
     std::vector<Partner> partners;

@@ -11,14 +11,12 @@
 // breaking took. Triangles then add up: each has the pressure that lies on it.
 #pragma once
 
-#include "plugin-common/point_law.hpp"
-#include "joint_step.hpp"
-#include "kept_patch.hpp"
+#include "carrying_fix.hpp"
+#include "joint_history.hpp"
 #include "mesh.hpp"
 
+#include "plugin-common/point_law.hpp"
 #include "plugin-common/seam.hpp"
-
-#include "fix.h"
 
 #include <array>
 #include <iterator>
@@ -30,7 +28,7 @@ namespace potential_particles {
 class FixShapes;
 struct Shape;
 
-class FixWall : public LAMMPS_NS::Fix {
+class FixWall : public CarryingFix {
 public:
     FixWall(LAMMPS_NS::LAMMPS* lmp, int count, char** arguments);
     ~FixWall() override;
@@ -44,12 +42,6 @@ public:
     void grow_arrays(int most) override { around.resize(most); }
     void copy_arrays(int from, int to, int) override { around[to] = around[from]; }
     void set_arrays(int i) override { around[i] = {}; }
-    int pack_exchange(int i, double* buffer) override;
-    int unpack_exchange(int i, double* buffer) override;
-    int pack_restart(int i, double* buffer) override;
-    void unpack_restart(int i, int nth) override;
-    int size_restart(int i) override { return 1 + withoutContacts + touching(i) * savedSize(); }
-    int maxsize_restart() override;
     void write_restart(FILE* file) override;
     void restart(char* saved) override;
     double memory_usage() override;
@@ -104,8 +96,6 @@ private:
         double format, mark, byPatch, motion[10], start, lastTime, contacts, sums[std::size(ofRun)];
     };
 
-    static constexpr int withoutContacts =
-        2; // numbers that pack() writes of an atom: how many contacts, and the mark of its shape
     int savedSize() const { return 1 + (byPatch ? countOfNumbers(JointHistory {}) : 9); } // of a contact
 
     Frame frameNow() const;
@@ -132,8 +122,9 @@ private:
     std::array<double, 10> motion() const;
     void forget(Surroundings& here); // and count what springs hold
     int touching(int i) const;
-    int pack(int i, double* buffer) const;
-    int unpack(int i, const double* buffer);
+    int sizeOf(int i) const override { return withoutContacts + touching(i) * savedSize(); }
+    int pack(int i, double* buffer) const override;
+    int unpack(int i, const double* buffer) override;
     bool shareCorner(int element, int other) const;
     const Triangle* triangleOf(int element) const; // none of a plane
 

@@ -1,9 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 //
-// What a contact by its patch carries from step to step, and as numbers that migrate and restart.
+// What a contact by its patch carries from step to step, and as numbers that migrate and restart. One
+// step of such a contact, of two bodies or of a body and a wall.
 #pragma once
 
 #include "plugin-common/joint.hpp"
+#include "plugin-common/joint_law.hpp"
+
+#include <potential_particles.h>
+
+#include <memory>
+#include <optional>
 
 namespace potential_particles {
 
@@ -101,6 +108,52 @@ inline JointHistory readNumbers(const double* from)
     joint_numbers::Read visit { from };
     JointHistory::eachNumber(history, visit);
     return history;
+}
+
+// The energy of a patch takes ten times as long as its force. It has a memory of its own and is sought only where it is
+// output, so that no force depends on how often that is.
+struct KeptPatch {
+    pp_patch_state ofForce = {};
+    std::unique_ptr<pp_patch_state> ofEnergy;
+
+    // find(with_energy, state, patch): a call of the library. 0 where it fails.
+    template <class Find> double energy(Find&& find)
+    {
+        if (!ofEnergy)
+            ofEnergy = std::make_unique<pp_patch_state>();
+        pp_patch patch;
+        return find(1, ofEnergy.get(), &patch) == PP_OK && patch.energy > 0 ? patch.energy : 0.0;
+    }
+
+    double bytes() const { return sizeof(*this) + (ofEnergy ? sizeof(*ofEnergy) : 0); }
+};
+
+constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
+
+// here: none, where the bodies are apart. Where the step only repeats the last one (`advance` false, at the start of a
+// run), the history stays as it is. posed(1), posed(2): the shapes, for a patch that becomes a bond.
+template <class Posed>
+JointForces jointForces(const JointParameters& joint, JointHistory& history, const JointBody& one,
+                        const JointBody& other, const std::optional<PatchInStep>& here, double dt, bool advance,
+                        Posed&& posed)
+{
+    JointLaw law(joint, history.memory, one, other, dt);
+    const auto motionAt = [&](const PatchInStep& patch) {
+        return JointMotion::of(one, other, patch.point, patch.normal, history.normal, dt);
+    };
+    if (!advance && history.lasts()) {
+        if (history.isBond())
+            law.repeatAsBond(history.damping);
+        else if (here && here->patch.area > 0)
+            law.repeatAsPatch(here->patch, motionAt(*here), history.damping);
+        return law.forces();
+    }
+    law.step(here && here->patch.area > 0 ? &here->patch : nullptr, true, [&] { return motionAt(*here); }, posed);
+    history.touching = here.has_value();
+    if (here)
+        history.normal = here->normal;
+    history.damping = law.forces().damping;
+    return law.forces();
 }
 
 } // namespace potential_particles

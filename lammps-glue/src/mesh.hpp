@@ -3,7 +3,7 @@
 // Triangles of an STL file, and which of them are near a place.
 #pragma once
 
-#include "plugin-common/triangle.hpp"
+#include "plugin-common/seam.hpp"
 
 #include <string>
 #include <vector>

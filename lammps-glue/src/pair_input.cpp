@@ -5,7 +5,6 @@
 #include "entered.hpp"
 #include "fix_nve.hpp"
 #include "fix_shapes.hpp"
-#include "joint_words.hpp"
 
 #include "atom.h"
 #include "comm.h"

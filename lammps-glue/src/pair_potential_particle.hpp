@@ -13,8 +13,7 @@
 
 #include "plugin-common/point_law.hpp"
 #include "contact_memory.hpp"
-#include "joint_step.hpp"
-#include "kept_patch.hpp"
+#include "joint_history.hpp"
 #include "mark.hpp"
 
 #include "pair.h"

@@ -3,7 +3,6 @@
 // What a script says of a wall.
 #include "fix_wall.hpp"
 #include "entered.hpp"
-#include "joint_words.hpp"
 
 #include "atom.h"
 #include "error.h"
@@ -26,7 +25,7 @@ constexpr const char* expected = "expected KN KS FRICTION RESTITUTION, then plan
 } // namespace
 
 FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
-    : Fix(lmp, count, arguments)
+    : CarryingFix(lmp, count, arguments)
 {
     restart_peratom = restart_global = create_attribute = 1;
     maxexchange_dynamic = 1;

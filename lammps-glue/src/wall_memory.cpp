@@ -83,33 +83,6 @@ int FixWall::unpack(int i, const double* buffer)
     return static_cast<int>(from - buffer);
 }
 
-int FixWall::pack_exchange(int i, double* buffer) { return pack(i, buffer); }
-
-int FixWall::unpack_exchange(int i, double* buffer) { return unpack(i, buffer); }
-
-int FixWall::pack_restart(int i, double* buffer)
-{
-    const int size = 1 + pack(i, buffer + 1);
-    buffer[0] = size;
-    return size;
-}
-
-void FixWall::unpack_restart(int i, int nth)
-{
-    const double* extra = atom->extra[i];
-    for (int n = 0; n < nth; ++n)
-        extra += static_cast<int>(extra[0]);
-    unpack(i, extra + 1);
-}
-
-int FixWall::maxsize_restart()
-{
-    int most = 1 + withoutContacts;
-    for (int i = 0; i < atom->nlocal; ++i)
-        most = std::max(most, size_restart(i));
-    return most;
-}
-
 double FixWall::mark() const
 {
     Mark mark;
@@ -142,11 +115,7 @@ void FixWall::write_restart(FILE* out)
         mine[0] += touching(i);
     std::transform(std::begin(ofRun), std::end(ofRun), mine.begin() + 1, [this](Sum sum) { return own[sum]; });
     MPI_Reduce(mine.data(), &all.contacts, static_cast<int>(mine.size()), MPI_DOUBLE, MPI_SUM, 0, world);
-    if (comm->me == 0) {
-        const int size = sizeof all;
-        fwrite(&size, sizeof size, 1, out);
-        fwrite(&all, sizeof all, 1, out);
-    }
+    writeSaved(out, all);
 }
 
 void FixWall::restart(char* saved)

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.optimize import linprog
 from yade import O
 
-from report import row, target, worst
+from report import halved, row, target, worst
 from block_scene import ROUNDING, Scene, box_corners, place_of
 
 TITLE = "a semicircular arch"
@@ -49,11 +49,7 @@ def outline(thickness, one, other):
 
 def least_thickness(stones, inset=0.0):
     """t/R of that many stones, hinges `inset` t inside the edges. Bisection over linear programs."""
-    low, high = 0.0, 0.5
-    for _ in range(40):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if line_of_thrust(middle, stones, inset) is not None else (middle, high)
-    return high
+    return halved(0.0, 0.5, 0.5 / 2**40, lambda thickness: line_of_thrust(thickness, stones, inset) is not None)[1]
 
 
 def line_of_thrust(thickness, stones, inset=0.0):
@@ -157,17 +153,6 @@ class Arch:
         return drawn
 
 
-def thinnest(stones, rounding, sphericity, bracket=BRACKET, look=lambda part: None):
-    """(largest t/R that falls, smallest that stands)."""
-    low, high = SEARCH
-    trials = int(np.ceil(np.log2((high - low) / bracket)))
-    for trial in range(1, trials + 1):
-        middle = 0.5 * (low + high)
-        low, high = (low, middle) if Arch(middle, stones, rounding, sphericity).stands() else (middle, high)
-        look(trial / trials)
-    return low, high
-
-
 def run(note, short):
     """The arch of STONES, and others with other stones, r and k; or one of ten stones."""
     cases = [(10, ROUNDING, 0.0)] if short else [(STONES, ROUNDING, 0.0), *VARIED]
@@ -176,7 +161,9 @@ def run(note, short):
     rows, flat = [], []
     for number, (stones, rounding, sphericity) in enumerate(cases):
         here, cost = costs[number], costs[number + 1] - costs[number]
-        low, high = thinnest(stones, rounding, sphericity, bracket, lambda part: note((here + part * cost) / costs[-1]))
+        # The largest t/R that falls, and the smallest that stands.
+        low, high = halved(*SEARCH, bracket, lambda thickness: Arch(thickness, stones, rounding, sphericity).stands(),
+                           lambda part: note((here + part * cost) / costs[-1]))
         name = f"least t/R, {stones} stones, r = {rounding:g} t, k = {sphericity:g}"
         rows.append(row(name, least_thickness(stones, rounding), 0.5 * (low + high)))
         rows[-1]["bracket"] = high - low

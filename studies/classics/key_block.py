@@ -156,7 +156,7 @@ def _behind(outward, offset):
     turn = yade.Quaternion()
     turn.setFromTwoVectors(yade.Vector3(0, 0, 1), yade.Vector3(*map(float, outward)))
     place = outward * (offset + 0.5)
-    return {"position": place, "orientation": (turn[3], turn[0], turn[1], turn[2])}
+    return {"position": place, "orientation": turn}
 
 
 def run(note, short):

@@ -6,7 +6,7 @@ balance on the edge (Coffin 1923; Johnson 1955, Gardner 1964 for the sum). The s
 a factor, and the largest factor at which it stands is bracketed by halving.
 """
 
-from report import row, target, worst
+from report import halved, row, target, worst
 from block_scene import Scene, box_corners, turn_about_y
 
 TITLE = "n blocks over the edge of a table"
@@ -46,9 +46,7 @@ def largest(count, bracket=BRACKET, low=0.98, high=1.02):
     """(largest overhang in lengths, half the width of its bracket)."""
     if not stands(count, low) or stands(count, high):
         return float("nan"), float("nan")
-    while high - low > bracket:
-        middle = 0.5 * (low + high)
-        low, high = (middle, high) if stands(count, middle) else (low, middle)
+    low, high = halved(low, high, bracket, lambda factor: not stands(count, factor))
     return 0.5 * (low + high) * overhang(count), 0.5 * (high - low) * overhang(count)
 
 

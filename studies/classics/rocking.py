@@ -43,11 +43,6 @@ def quarter_period(tilt):
     return float(0.5 * np.sqrt(a - c) * np.sum(weights * 2.0 * s / speed) / pace())
 
 
-def quarter_period_of_housner(tilt):
-    """His, for slender columns: acosh(1/(1 - tilt))/p."""
-    return float(np.arccosh(1.0 / (1.0 - tilt)) / pace())
-
-
 def housner_ratio():
     """Of the angular velocities after and before an impact."""
     return 1.0 - 1.5 * np.sin(slenderness()) ** 2

@@ -35,7 +35,7 @@ def simulate(sides, slope=SLOPE, way=WAY):
     # On a side, its axis along y.
     height = RADIUS * np.sqrt(np.pi / (sides * np.tan(np.pi / sides)))
     turn = yade.Quaternion((1, 0, 0), 0.5 * np.pi)
-    roller = scene.add(shape, orientation=(turn[3], turn[0], turn[1], turn[2]), position=(-3.0, 0.0, height))
+    roller = scene.add(shape, orientation=turn, position=(-3.0, 0.0, height))
     scene.start(FRICTION, gravity=tilted_gravity(slope))
     origin, looks = roller.state.pos[0], [(0.0, 0.0)]
     step = np.sqrt(2.0 * way / acceleration(slope)) / LOOKS

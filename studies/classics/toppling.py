@@ -11,7 +11,7 @@ import numpy as np
 from scipy.optimize import brentq
 from yade import O
 
-from report import row, target
+from report import halved, row, target
 from block_scene import GRAVITY, Scene, box_corners, tilted_gravity
 
 TITLE = "a toppling slope of 16 columns"
@@ -112,17 +112,15 @@ class Slope:
 
 def critical_angle(bracket=BRACKET, look=lambda part: None):
     """Largest friction angle at which it fails and smallest at which it holds, degrees, and the pushes there."""
-    low, high = SEARCH
-    pushes = None
-    while high - low > bracket:
-        middle = 0.5 * (low + high)
+    found = []
+
+    def holds(friction):
         slope = Slope(HELD)
-        if slope.holds(middle):
-            high, pushes = middle, slope.pushes()
-        else:
-            low = middle
-        look(bracket / (high - low))
-    return low, high, pushes
+        if is_held := slope.holds(friction):
+            found.append(slope.pushes())
+        return is_held
+
+    return *halved(*SEARCH, bracket, holds, look), found[-1]
 
 
 def run(note, short):

@@ -2,7 +2,8 @@
 """One case, one functor: stepping it, looking now and then, and keeping what both are judged by."""
 
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 from yade import O
@@ -17,29 +18,33 @@ LOOKS = 150  # along a full run
 MOMENTS = 12  # at which touching pairs are compared with the cone programs
 
 
-@dataclass
-class Record:
-    """Columns, one entry a look; SI units."""
+class Look(NamedTuple):
+    """SI units."""
 
-    step: list = field(default_factory=list)
-    time: list = field(default_factory=list)
-    height: list = field(default_factory=list)  # mean z of the free bodies
-    kinetic: list = field(default_factory=list)
-    energy: list = field(default_factory=list)  # kinetic, of gravity, elastic
-    unbalanced: list = field(default_factory=list)
-    overlap: list = field(default_factory=list)
-    contacts: list = field(default_factory=list)
-    pairs: list = field(default_factory=list)  # whose boxes meet
-    imbalance: list = field(default_factory=list)  # |sum| of all contact forces over the sum of their sizes
-    loop_seconds: list = field(default_factory=list)  # since the start: contacts, springs
-    all_seconds: list = field(default_factory=list)  # since the start: all engines
-    calls: list = field(default_factory=list)  # of the functor, where it counts them
-    functor_seconds: list = field(default_factory=list)  # likewise
+    step: int
+    height: float  # mean z of the free bodies
+    kinetic: float
+    energy: float  # kinetic, of gravity, elastic
+    unbalanced: float
+    overlap: float
+    contacts: int
+    pairs: int  # whose boxes meet
+    imbalance: float  # |sum| of all contact forces over the sum of their sizes
+    loop_seconds: float  # since the start: contacts, springs
+    all_seconds: float  # since the start: all engines
+    calls: int  # of the functor, where it counts them
+    functor_seconds: float  # likewise
+
+
+class Record(list):
+    """Looks; each of their fields is a column."""
+
+    def __getattr__(self, name):
+        return [getattr(one, name) for one in self]
 
     def until(self, step):
         """The same record, as if the run had ended at `step`."""
-        end = int(np.searchsorted(self.step, step, side="right"))
-        return Record(**{name: column[:end] for name, column in vars(self).items()})
+        return Record(one for one in self if one.step <= step)
 
 
 @dataclass
@@ -70,7 +75,7 @@ def run_trial(case, area, kind, steps, most_seconds, progress=None):
     looks = 0
     # In the first step of a contact there are no springs yet: energies count from here.
     advance(2)
-    look(record, watch, contact)
+    record.append(look(watch, contact))
     while O.iter < steps and time.monotonic() - began < most_seconds:
         advance(min(O.iter + stride - 1, steps - 1))
         looks += 1
@@ -80,34 +85,23 @@ def run_trial(case, area, kind, steps, most_seconds, progress=None):
         if before:
             before.touching = touching_now()
             moments.append(before)
-        look(record, watch, contact)
+        record.append(look(watch, contact))
         if progress:
             progress(min(1.0, max(O.iter / steps, (time.monotonic() - began) / most_seconds)))
     failures = contact.counts()["failures"]
     return Trial(contact.name, ids, O.iter, record, moments, failures, time.monotonic() - began)
 
 
-def look(record, watch, contact):
-    """Adds one entry to each column."""
+def look(watch, contact):
+    """The scene as it is."""
     sample, counts = watch.look(), contact.counts()
     forces = np.array([tuple(O.forces.f(body.id)) for body in O.bodies])
     size = np.linalg.norm(forces, axis=1).sum()
-    loop_seconds = next(engine for engine in O.engines if engine.label == "contacts").execTime / 1e9
-    values = {
-        "step": O.iter,
-        "time": O.time,
-        "height": float(np.mean([state.pos[2] for state in watch.states])),
-        "kinetic": sample.kinetic,
-        "energy": sample.energy,
-        "unbalanced": unbalanced_force() if sample.contacts else None,
-        "overlap": sample.overlap,
-        "contacts": sample.contacts,
-        "pairs": sample.candidates,
-        "imbalance": float(np.linalg.norm(forces.sum(0)) / size) if size else 0.0,
-        "loop_seconds": loop_seconds,
-        "all_seconds": sum(engine.execTime for engine in O.engines) / 1e9,
-        "calls": counts["calls"],
-        "functor_seconds": counts["seconds"],
-    }
-    for name, value in values.items():
-        getattr(record, name).append(value)
+    return Look(
+        step=O.iter, height=float(np.mean([state.pos[2] for state in watch.states])), kinetic=sample.kinetic,
+        energy=sample.energy, unbalanced=unbalanced_force() if sample.contacts else None, overlap=sample.overlap,
+        contacts=sample.contacts, pairs=sample.candidates,
+        imbalance=float(np.linalg.norm(forces.sum(0)) / size) if size else 0.0,
+        loop_seconds=next(engine for engine in O.engines if engine.label == "contacts").execTime / 1e9,
+        all_seconds=sum(engine.execTime for engine in O.engines) / 1e9, calls=counts["calls"],
+        functor_seconds=counts["seconds"])

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Slopes cut at random, and whether the block that block theory frees moves: for test_rock.py and
+"""Slopes cut at random, and whether the block that block theory frees moves: for test_key_blocks.py and
 benches/rock/key_blocks.py.
 """
 import numpy as np

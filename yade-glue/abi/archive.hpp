@@ -14,6 +14,7 @@
 #include <boost/archive/detail/basic_oserializer.hpp>
 #include <boost/archive/detail/basic_pointer_iserializer.hpp>
 #include <boost/archive/detail/basic_pointer_oserializer.hpp>
+#include <boost/serialization/access.hpp>
 #include <boost/serialization/extended_type_info_typeid.hpp>
 #include <boost/serialization/level.hpp>
 #include <boost/serialization/nvp.hpp>
@@ -83,3 +84,8 @@ namespace serialization {
     };
 }
 }
+
+// In the private part of a class that archives have.
+#define PP_ARCHIVED                                                                                \
+    friend class boost::serialization::access;                                                     \
+    template <class Archive> void serialize(Archive& archive, unsigned);

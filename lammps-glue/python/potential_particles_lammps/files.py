@@ -1,1 +1,1 @@
-../../../python/potential_particles/files.py
+../../../yade-glue/python/potential_particles/files.py

@@ -4,18 +4,14 @@
 A dump has bodies as they are: dump 1 all custom 500 pile.dump id type x y z vx vy vz d2_orientation[1]
     d2_orientation[2] d2_orientation[3] d2_orientation[4]
 """
-import importlib.util
 import sys
-from pathlib import Path
 
 import numpy as np
 
 from .files import written
+from .graphics import with_graphics
 from .shapes import read_shapes
 
-# OpenGL without a display, of the package for YADE: the file stands alone.
-GRAPHICS = Path(
-    __file__).resolve().parents[3] / "yade-glue" / "python" / "potential_particles" / "output" / "graphics.py"
 QUATERNION = [f"d2_orientation[{n}]" for n in (1, 2, 3, 4)]
 
 
@@ -140,10 +136,7 @@ def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(
     focus = np.array(camera.GetFocalPoint())
     camera.SetPosition(focus + camera.GetDistance() * np.asarray(view, float) / np.linalg.norm(view))
     camera.SetViewUp(0, 0, 1)
-    spec = importlib.util.spec_from_file_location("graphics", GRAPHICS)
-    graphics = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(graphics)
-    graphics.with_graphics(_save, renderer, str(file), zoom, pixels)
+    with_graphics(_save, renderer, str(file), zoom, pixels)
     return step
 
 

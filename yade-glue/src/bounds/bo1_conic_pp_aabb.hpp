@@ -7,8 +7,6 @@
 #include "abi/functor.hpp"
 #include "registration/class_table.hpp"
 
-#include <boost/serialization/access.hpp>
-
 namespace potential_particles {
 
 // For ConicPotentialParticle. With a BoundWatch, the box of the body as it is turned; without, that of all turns, since
@@ -22,8 +20,7 @@ public:
             const yade::Body* body) override;
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 };
 
 // The same for every PotentialParticle, YADE's own among them.
@@ -33,8 +30,7 @@ public:
     PP_FUNCTOR_1D_OVERRIDES
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 };
 
 } // namespace potential_particles

@@ -21,8 +21,6 @@
 #include "particle/particle.hpp"
 #include "registration/class_table.hpp"
 
-#include <boost/serialization/access.hpp>
-
 namespace potential_particles {
 
 class BoundWatch final : public yade::GlobalEngine {
@@ -36,8 +34,7 @@ public:
     static bool guards(const yade::Scene& scene);
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 
     bool cellHasChanged();
     bool someBodyIsOutside();

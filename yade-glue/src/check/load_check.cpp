@@ -16,7 +16,6 @@
 #include "abi/shape.hpp"
 
 #include "bounds/bound_watch.hpp"
-#include "table_check.hpp"
 
 #include <boost/python/errors.hpp>
 #include <boost/python/extract.hpp>
@@ -90,13 +89,10 @@ namespace {
                                       + " bytes, declared are " + std::to_string(sizeof(Class)));
         }
 
-        template <class Value> Probe& field(const char* name, Value Class::*member)
+        // access: from the object to the field.
+        template <class Access> Probe& field(const char* name, Access access)
         {
-            return field<Value>(name, [member](Class& seen) -> Value& { return seen.*member; });
-        }
-
-        template <class Value, class Access> Probe& field(const char* name, Access access)
-        {
+            using Value = std::decay_t<decltype(access(seen))>;
             if constexpr (std::is_same_v<Value, bool>) {
                 // Twice, so that a constant byte in its place does not pass.
                 (void)(compare<bool>(name, access, true) && compare<bool>(name, access, false));
@@ -154,152 +150,80 @@ namespace {
         Values values;
     };
 
+// A field that Python has by its own name, and one that it has by another.
+#define PP_FIELD(name) .field(#name, [](auto& seen) -> auto& { return seen.name; })
+#define PP_FIELD_AT(name, place) .field(#name, [](auto& seen) -> auto& { return seen.place; })
+
     void checkShape(Differences& found)
     {
-        using P = PotentialParticle;
-        Probe<P>(found, "PotentialParticle")
-            .field<Vector3r>("color", [](P& p) -> Vector3r& { return p.color; })
-            .field<bool>("wire", [](P& p) -> bool& { return p.wire; })
-            .field<bool>("highlight", [](P& p) -> bool& { return p.highlight; })
-            .field("id", &P::id)
-            .field("isBoundary", &P::isBoundary)
-            .field("fixedNormal", &P::fixedNormal)
-            .field("boundaryNormal", &P::boundaryNormal)
-            .field("AabbMinMax", &P::AabbMinMax)
-            .field("minAabb", &P::minAabb)
-            .field("maxAabb", &P::maxAabb)
-            .field("minAabbRotated", &P::minAabbRotated)
-            .field("maxAabbRotated", &P::maxAabbRotated)
-            .field("r", &P::r)
-            .field("R", &P::R)
-            .field("k", &P::k)
-            .field("vertices", &P::vertices)
-            .field("a", &P::a)
-            .field("b", &P::b)
-            .field("c", &P::c)
-            .field("d", &P::d);
+        Probe<PotentialParticle>(found, "PotentialParticle")
+            PP_FIELD(color) PP_FIELD(wire) PP_FIELD(highlight) PP_FIELD(id) PP_FIELD(isBoundary)
+            PP_FIELD(fixedNormal) PP_FIELD(boundaryNormal) PP_FIELD(AabbMinMax) PP_FIELD(minAabb)
+            PP_FIELD(maxAabb) PP_FIELD(minAabbRotated) PP_FIELD(maxAabbRotated) PP_FIELD(r) PP_FIELD(R)
+            PP_FIELD(k) PP_FIELD(vertices) PP_FIELD(a) PP_FIELD(b) PP_FIELD(c) PP_FIELD(d);
     }
 
     void checkPrimitives(Differences& found)
     {
-        Probe<yade::Sphere>(found, "Sphere").field("radius", &yade::Sphere::radius);
-        Probe<yade::Cylinder>(found, "Cylinder")
-            .field("length", &yade::Cylinder::length)
-            .field("segment", &yade::Cylinder::segment);
-        Probe<yade::Box>(found, "Box").field("extents", &yade::Box::extents);
-        Probe<yade::Wall>(found, "Wall").field("sense", &yade::Wall::sense).field("axis", &yade::Wall::axis);
+        Probe<yade::Sphere>(found, "Sphere") PP_FIELD(radius);
+        Probe<yade::Cylinder>(found, "Cylinder") PP_FIELD(length) PP_FIELD(segment);
+        Probe<yade::Box>(found, "Box") PP_FIELD(extents);
+        Probe<yade::Wall>(found, "Wall") PP_FIELD(sense) PP_FIELD(axis);
         Probe<yade::Facet> facet(found, "Facet");
-        facet.field("normal", &yade::Facet::normal).field("area", &yade::Facet::area);
+        facet PP_FIELD(normal) PP_FIELD(area);
         // Python can set three vertices only, all of them at once.
         if (facet.instance().vertices.size() != 3)
             found.push_back("Facet.vertices: not found at its declared place");
         else
-            facet.field("vertices", &yade::Facet::vertices);
+            facet PP_FIELD(vertices);
     }
 
     void checkState(Differences& found)
     {
         Probe<State> probe(found, "State");
-        probe.field<Vector3r>("pos", [](State& s) -> Vector3r& { return s.se3.position; })
-            .field<Vector3r>("pos", [](State& s) -> Vector3r& { return s.pos; })
-            .field<Quaternionr>("ori", [](State& s) -> Quaternionr& { return s.se3.orientation; })
-            .field<Quaternionr>("ori", [](State& s) -> Quaternionr& { return s.ori; })
-            .field("vel", &State::vel)
-            .field("mass", &State::mass)
-            .field("angVel", &State::angVel)
-            .field("angMom", &State::angMom)
-            .field("inertia", &State::inertia)
-            .field("refPos", &State::refPos)
-            .field("refOri", &State::refOri)
-            .field("isDamped", &State::isDamped)
-            .field("densityScaling", &State::densityScaling);
+        probe PP_FIELD_AT(pos, se3.position) PP_FIELD(pos) PP_FIELD_AT(ori, se3.orientation) PP_FIELD(ori)
+            PP_FIELD(vel) PP_FIELD(mass) PP_FIELD(angVel) PP_FIELD(angMom) PP_FIELD(inertia) PP_FIELD(refPos) PP_FIELD(refOri)
+            PP_FIELD(isDamped) PP_FIELD(densityScaling);
     }
 
     void checkGeometry(Differences& found)
     {
-        using G = ScGeom;
-        Probe<G>(found, "ScGeom")
-            .field<Vector3r>("normal", [](G& g) -> Vector3r& { return g.normal; })
-            .field<Vector3r>("contactPoint", [](G& g) -> Vector3r& { return g.contactPoint; })
-            .field<double>("refR1", [](G& g) -> double& { return g.refR1; })
-            .field<double>("refR2", [](G& g) -> double& { return g.refR2; })
-            .field<double>("refR1", [](G& g) -> double& { return g.radius1; })
-            .field<double>("refR2", [](G& g) -> double& { return g.radius2; })
-            .field("penetrationDepth", &G::penetrationDepth)
-            .field("shearInc", &G::shearInc);
+        Probe<ScGeom>(found, "ScGeom")
+            PP_FIELD(normal) PP_FIELD(contactPoint) PP_FIELD(refR1) PP_FIELD(refR2)
+            PP_FIELD_AT(refR1, radius1) PP_FIELD_AT(refR2, radius2) PP_FIELD(penetrationDepth)
+            PP_FIELD(shearInc);
     }
 
     void checkPhysics(Differences& found)
     {
-        using P = KnKsPhys;
-        Probe<P>(found, "KnKsPhys")
-            .field<double>("kn", [](P& p) -> double& { return p.kn; })
-            .field<Vector3r>("normalForce", [](P& p) -> Vector3r& { return p.normalForce; })
-            .field<double>("ks", [](P& p) -> double& { return p.ks; })
-            .field<Vector3r>("shearForce", [](P& p) -> Vector3r& { return p.shearForce; })
-            .field<double>("tangensOfFrictionAngle", [](P& p) -> double& { return p.tangensOfFrictionAngle; })
+        Probe<KnKsPhys>(found, "KnKsPhys")
+            PP_FIELD(kn) PP_FIELD(normalForce) PP_FIELD(ks) PP_FIELD(shearForce)
+            PP_FIELD(tangensOfFrictionAngle)
 #if PP_YADE_FRICT_PHYS_EXTRA
-            .field<double>("frictDissip", [](P& p) -> double& { return p.frictDissip; })
+            PP_FIELD(frictDissip)
 #endif
-            .field("frictionAngle", &P::frictionAngle)
-            .field("viscousDamping", &P::viscousDamping)
-            .field("maxClosure", &P::maxClosure)
-            .field("u_elastic", &P::u_elastic)
-            .field("brittleLength", &P::brittleLength)
-            .field("knVol", &P::knVol)
-            .field("ksVol", &P::ksVol)
-            .field("kn_i", &P::kn_i)
-            .field("ks_i", &P::ks_i)
-            .field("normalViscous", &P::normalViscous)
-            .field("shearViscous", &P::shearViscous)
-            .field("intactRock", &P::intactRock)
-            .field("jointType", &P::jointType)
-            .field("shearDir", &P::shearDir)
-            .field("prevNormal", &P::prevNormal)
-            .field("warmstart", &P::warmstart)
-            .field("ptOnP1", &P::ptOnP1)
-            .field("ptOnP2", &P::ptOnP2)
-            .field("cumulative_us", &P::cumulative_us)
-            .field("mobilizedShear", &P::mobilizedShear)
-            .field("contactArea", &P::contactArea)
-            .field("prevSigma", &P::prevSigma)
-            .field("jointLength", &P::jointLength)
-            .field("shearIncrementForCD", &P::shearIncrementForCD)
-            .field("useFaceProperties", &P::useFaceProperties)
-            .field("cohesion", &P::cohesion)
-            .field("tension", &P::tension)
-            .field("cohesionBroken", &P::cohesionBroken)
-            .field("tensionBroken", &P::tensionBroken)
-            .field("phi_b", &P::phi_b)
-            .field("phi_r", &P::phi_r)
-            .field("u_cumulative", &P::u_cumulative)
-            .field("initialShearDir", &P::initialShearDir)
-            .field("effective_phi", &P::effective_phi)
-            .field("isSliding", &P::isSliding);
+            PP_FIELD(frictionAngle) PP_FIELD(viscousDamping) PP_FIELD(maxClosure) PP_FIELD(u_elastic)
+            PP_FIELD(brittleLength) PP_FIELD(knVol) PP_FIELD(ksVol) PP_FIELD(kn_i) PP_FIELD(ks_i)
+            PP_FIELD(normalViscous) PP_FIELD(shearViscous) PP_FIELD(intactRock) PP_FIELD(jointType)
+            PP_FIELD(shearDir) PP_FIELD(prevNormal) PP_FIELD(warmstart) PP_FIELD(ptOnP1) PP_FIELD(ptOnP2)
+            PP_FIELD(cumulative_us) PP_FIELD(mobilizedShear) PP_FIELD(contactArea) PP_FIELD(prevSigma)
+            PP_FIELD(jointLength) PP_FIELD(shearIncrementForCD) PP_FIELD(useFaceProperties) PP_FIELD(cohesion)
+            PP_FIELD(tension) PP_FIELD(cohesionBroken) PP_FIELD(tensionBroken) PP_FIELD(phi_b) PP_FIELD(phi_r)
+            PP_FIELD(u_cumulative) PP_FIELD(initialShearDir) PP_FIELD(effective_phi) PP_FIELD(isSliding);
     }
 
     void checkMaterial(Differences& found)
     {
-        using M = yade::FrictMat;
-        Probe<M>(found, "FrictMat")
-            .field<int>("id", [](M& m) -> int& { return m.id; })
-            .field<std::string>("label", [](M& m) -> std::string& { return m.label; })
-            .field<double>("density", [](M& m) -> double& { return m.density; })
-            .field<double>("young", [](M& m) -> double& { return m.young; })
-            .field<double>("poisson", [](M& m) -> double& { return m.poisson; })
-            .field("frictionAngle", &M::frictionAngle);
+        Probe<yade::FrictMat>(found, "FrictMat")
+            PP_FIELD(id) PP_FIELD(label) PP_FIELD(density) PP_FIELD(young) PP_FIELD(poisson) PP_FIELD(frictionAngle);
     }
 
     void checkInteraction(Differences& found)
     {
         using I = Interaction;
         Probe<I> probe(found, "Interaction");
-        probe.field("isActive", &I::isActive)
-            .field("id1", &I::id1)
-            .field("id2", &I::id2)
-            .field("iterMadeReal", &I::iterMadeReal)
-            .field("cellDist", &I::cellDist)
-            .field("iterBorn", &I::iterBorn);
+        probe PP_FIELD(isActive) PP_FIELD(id1) PP_FIELD(id2) PP_FIELD(iterMadeReal)
+            PP_FIELD(cellDist) PP_FIELD(iterBorn);
         I& interaction = probe.instance();
         if (interaction.geom || interaction.phys || !interaction.functorCache.geomExists)
             found.push_back("Interaction: a new one does not look empty at geom, phys, functorCache");
@@ -308,7 +232,7 @@ namespace {
     void checkFunctor(Differences& found)
     {
         Probe<IGeomFunctor> probe(found, "Ig2_PP_PP_ScGeom");
-        probe.field<std::string>("label", [](IGeomFunctor& f) -> std::string& { return f.label; });
+        probe PP_FIELD(label);
         IGeomFunctor& builtin = probe.instance();
         const std::string first = builtin.get2DFunctorType1(), second = builtin.get2DFunctorType2();
         if (first != "PotentialParticle" || second != "PotentialParticle"
@@ -319,14 +243,10 @@ namespace {
     void checkBound(Differences& found)
     {
         Probe<Aabb>(found, "Aabb")
-            .field<int>("lastUpdateIter", [](Aabb& b) -> int& { return b.lastUpdateIter; })
-            .field<Vector3r>("refPos", [](Aabb& b) -> Vector3r& { return b.refPos; })
-            .field<double>("sweepLength", [](Aabb& b) -> double& { return b.sweepLength; })
-            .field<Vector3r>("color", [](Aabb& b) -> Vector3r& { return b.color; })
-            .field<Vector3r>("min", [](Aabb& b) -> Vector3r& { return b.min; })
-            .field<Vector3r>("max", [](Aabb& b) -> Vector3r& { return b.max; });
+            PP_FIELD(lastUpdateIter) PP_FIELD(refPos) PP_FIELD(sweepLength) PP_FIELD(color) PP_FIELD(min)
+            PP_FIELD(max);
         Probe<BoundFunctor> probe(found, "PotentialParticle2AABB");
-        probe.field<std::string>("label", [](BoundFunctor& f) -> std::string& { return f.label; });
+        probe PP_FIELD(label);
         if (probe.instance().get1DFunctorType1() != "PotentialParticle")
             found.push_back("BoundFunctor: virtual calls on PotentialParticle2AABB do not answer as they should");
     }
@@ -334,10 +254,7 @@ namespace {
     void checkEngine(Differences& found)
     {
         Probe<GlobalEngine> probe(found, "GlobalEngine");
-        probe.field<bool>("dead", [](GlobalEngine& e) -> bool& { return e.dead; })
-            .field<int>("ompThreads", [](GlobalEngine& e) -> int& { return e.ompThreads; })
-            .field<long>("execCount", [](GlobalEngine& e) -> long& { return e.timingInfo.nExec; })
-            .field<std::string>("label", [](GlobalEngine& e) -> std::string& { return e.label; });
+        probe PP_FIELD(dead) PP_FIELD(ompThreads) PP_FIELD_AT(execCount, timingInfo.nExec) PP_FIELD(label);
         if (!probe.instance().isActivated())
             found.push_back("GlobalEngine: virtual calls do not answer as they should");
     }
@@ -346,17 +263,11 @@ namespace {
     {
         using Cundall = Law2_ScGeom_FrictPhys_CundallStrack;
         Probe<Cundall>(found, "Law2_ScGeom_FrictPhys_CundallStrack")
-            .field("neverErase", &Cundall::neverErase)
-            .field("sphericalBodies", &Cundall::sphericalBodies)
-            .field("traceEnergy", &Cundall::traceEnergy);
+            PP_FIELD(neverErase) PP_FIELD(sphericalBodies) PP_FIELD(traceEnergy);
         using KnKs = Law2_SCG_KnKsPhys_KnKsLaw;
         Probe<KnKs>(found, "Law2_SCG_KnKsPhys_KnKsLaw")
-            .field("neverErase", &KnKs::neverErase)
-            .field("traceEnergy", &KnKs::traceEnergy)
-            .field("Talesnick", &KnKs::Talesnick)
-            .field("allowBreakage", &KnKs::allowBreakage)
-            .field("initialOverlapDistance", &KnKs::initialOverlapDistance)
-            .field("allowViscousAttraction", &KnKs::allowViscousAttraction);
+            PP_FIELD(neverErase) PP_FIELD(traceEnergy) PP_FIELD(Talesnick) PP_FIELD(allowBreakage)
+            PP_FIELD(initialOverlapDistance) PP_FIELD(allowViscousAttraction);
     }
 
     // A functor for two classes lies in the dispatcher's list, and in its matrix at their indices.
@@ -395,36 +306,21 @@ namespace {
     void checkBody(Differences& found)
     {
         Probe<Body>(found, "Body")
-            .field("id", &Body::id)
-            .field("mask", &Body::groupMask)
-            .field("flags", &Body::flags)
-            .field("subdomain", &Body::subdomain)
+            PP_FIELD(id) PP_FIELD_AT(mask, groupMask) PP_FIELD(flags) PP_FIELD(subdomain)
             .pointer("state", "State", &Body::state)
             .pointer("shape", "PotentialParticle", &Body::shape)
             .pointer("bound", "Aabb", &Body::bound)
-            .field("clumpId", &Body::clumpId)
-            .field("iterBorn", &Body::iterBorn)
-            .field("timeBorn", &Body::timeBorn);
+            PP_FIELD(clumpId) PP_FIELD(iterBorn) PP_FIELD(timeBorn);
     }
 
     void checkScene(Differences& found)
     {
-        using S = Scene;
         Probe<Scene> probe(found, "Scene");
-        probe.field("dt", &S::dt)
-            .field("iter", &S::iter)
-            .field("time", &S::time)
-            .field("isPeriodic", &S::isPeriodic)
-            .field("trackEnergy", &S::trackEnergy)
-            .field("doSort", &S::doSort)
-            .field("selectedBody", &S::selectedBody)
-            .field("subdomain", &S::subdomain);
-        Probe<Cell>(found, "Cell")
-            .field("hSize", &Cell::hSize)
-            .field("shearTrsf", &Cell::shearTrsf)
-            .field("unshearTrsf", &Cell::unshearTrsf);
+        probe PP_FIELD(dt) PP_FIELD(iter) PP_FIELD(time) PP_FIELD(isPeriodic) PP_FIELD(trackEnergy) PP_FIELD(doSort)
+            PP_FIELD(selectedBody) PP_FIELD(subdomain);
+        Probe<Cell>(found, "Cell") PP_FIELD(hSize) PP_FIELD(shearTrsf) PP_FIELD(unshearTrsf);
         // What Python does not show is asked of YADE's own functions.
-        S& scene = probe.instance();
+        Scene& scene = probe.instance();
         if (!scene.cell || scene.cell->getClassName() != "Cell")
             found.push_back("Scene.cell: not found at its declared place");
         if (!scene.energy || scene.energy->getClassName() != "EnergyTracker")

@@ -11,4 +11,8 @@ namespace potential_particles {
 // Every difference found, as a sentence; empty when there is none. Needs a started YADE.
 std::vector<std::string> differencesOfLayout();
 
+// Adds a sentence for each of our virtual tables that has not the shape of its base's: a slot that a class of ours does
+// not override must hold the same function. Needs a started YADE.
+void checkTables(std::vector<std::string>& found);
+
 } // namespace potential_particles

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "table_check.hpp"
+#include "load_check.hpp"
 
 #include "bounds/bo1_conic_pp_aabb.hpp"
 #include "bounds/bound_watch.hpp"

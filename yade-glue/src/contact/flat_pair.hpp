@@ -4,8 +4,7 @@
 #pragma once
 
 #include "abi/scene.hpp"
-#include "loop/body_in_step.hpp"
-#include "loop/pair_in_step.hpp"
+#include "loop/in_step.hpp"
 #include "loop/relative_motion.hpp"
 #include "pair_in_scene.hpp"
 #include "particle/particle.hpp"

@@ -3,12 +3,9 @@
 // What go() does. The attributes and their way to Python and archives: ig2_conic_pp_python.cpp.
 #include "abi/knksphys.hpp"
 #include "abi/scene.hpp"
-
-#include "answer_path.hpp"
 #include "ig2_conic_pp.hpp"
 #include "pair_in_scene.hpp"
 #include "shape/particle_of.hpp"
-#include "particle/ray.hpp"
 #include "loop/relative_motion.hpp"
 #include "loop/step.hpp"
 

@@ -13,7 +13,6 @@
 
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
-#include <boost/serialization/access.hpp>
 
 namespace yade {
 class ScGeom;
@@ -35,9 +34,7 @@ public:
     ~Ig2_ConicPP_ConicPP_ScGeom() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    std::string get2DFunctorType1() const override;
-    std::string get2DFunctorType2() const override;
-    std::string checkOrder() const override;
+    PP_FUNCTOR_2D_TYPES
 
     bool go(const boost::shared_ptr<yade::Shape>& shape1, const boost::shared_ptr<yade::Shape>& shape2,
             const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, const bool& force,
@@ -82,8 +79,7 @@ protected:
     Counters counters;
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 
     struct Pair; // the arguments of one call, put in order
     bool answer(Pair& pair);
@@ -116,8 +112,7 @@ public:
     PP_FUNCTOR_2D_OVERRIDES
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 };
 
 } // namespace potential_particles

@@ -3,7 +3,7 @@
 // The contact functors' names, attributes, Python classes and archives.
 #include "registration/definitions.hpp"
 
-#include "answer_path.hpp"
+#include "counters.hpp"
 #include "ig2_conic_pp.hpp"
 
 #include <limits>

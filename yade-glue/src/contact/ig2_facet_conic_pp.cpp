@@ -5,7 +5,7 @@
 
 #include "abi/knksphys.hpp"
 #include "flat_pair.hpp"
-#include "ig2_facet_conic_pp.hpp"
+#include "ig2_flat_conic_pp.hpp"
 
 #include "plugin-common/new_contact.hpp"
 

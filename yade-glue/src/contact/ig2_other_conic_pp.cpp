@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "registration/definitions.hpp"
+
 #include "ig2_other_conic_pp.hpp"
 
 namespace potential_particles {
@@ -18,4 +20,14 @@ bool Ig2_Other_ConicPP::goReverse(const boost::shared_ptr<yade::Shape>& shape1,
     return go(shape2, shape1, state2, state1, -shift2, force, interaction);
 }
 
+#define PP_STAND_IN(Shape, Version, Doc)                                                           \
+    Ig2_##Shape##_ConicPP_ScGeom::~Ig2_##Shape##_ConicPP_ScGeom() = default;                       \
+    PP_FUNCTOR_2D_DEFINITIONS(Ig2_##Shape##_ConicPP_ScGeom)                                        \
+    PP_PYTHON_AS_BASE(Ig2_##Shape##_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)                    \
+    PP_ARCHIVE_AS_BASE(Ig2_##Shape##_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)
+#include "registration/class_table.inc"
+
 } // namespace potential_particles
+
+#define PP_STAND_IN(Shape, Version, Doc) BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Ig2_##Shape##_ConicPP_ScGeom)
+#include "registration/class_table.inc"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// What is common to the contact functors between YADE's own shapes and potential particles.
+// The contact functors between YADE's own shapes and potential particles: what is common to them, and those for shapes
+// that are particles themselves.
 #pragma once
 
 #include "ig2_conic_pp.hpp"
@@ -15,5 +16,17 @@ public:
                    const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2,
                    const bool& force, const boost::shared_ptr<yade::Interaction>& interaction) noexcept override;
 };
+
+// A class for each PP_STAND_IN of the class table. They differ in what the table says of them.
+#define PP_STAND_IN(Shape, Version, Doc)                                                           \
+    class Ig2_##Shape##_ConicPP_ScGeom final : public Ig2_Other_ConicPP {                          \
+    public:                                                                                        \
+        ~Ig2_##Shape##_ConicPP_ScGeom() override;                                                  \
+        PP_FUNCTOR_2D_OVERRIDES                                                                    \
+                                                                                                   \
+    private:                                                                                       \
+        PP_ARCHIVED                                                                                \
+    };
+#include "registration/class_table.inc"
 
 } // namespace potential_particles

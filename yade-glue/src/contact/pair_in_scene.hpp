@@ -9,7 +9,7 @@
 
 #include "contact_settings.hpp"
 #include "counters.hpp"
-#include "particle/pose.hpp"
+#include "particle/particle.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
 
 #include <boost/make_shared.hpp>

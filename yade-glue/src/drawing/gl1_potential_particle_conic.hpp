@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The functor that draws potential particles in YADE's 3-D window.
+// The functor that draws potential particles in YADE's 3-D window, and the way into that window.
 #pragma once
 
 #include "abi/window.hpp"
-#include "drawn_mesh.hpp"
+
+#include "surface_mesh.hpp"
 #include "registration/class_table.hpp"
+
+#include <boost/python/object.hpp>
 
 #include <memory>
 #include <unordered_map>
@@ -34,5 +37,11 @@ private:
     std::unordered_map<std::uint64_t, Kept> meshes; // by Particle::serial
     std::size_t sweepAt = 64; // at this number, meshes of particles that are gone are dropped
 };
+
+// The dispatcher by which a renderer (yade.qt.Renderer()) draws shapes, as a Python object of YADE's class
+// GlShapeDispatcher. It is a part of the renderer, which must live longer; YADE's own lives as long as the process.
+// YADE gives no access to it, so that it is looked for at its declared place: an object of that very class must lie
+// there, or this throws std::runtime_error.
+boost::python::object windowDispatcher(const boost::python::object& renderer);
 
 } // namespace potential_particles

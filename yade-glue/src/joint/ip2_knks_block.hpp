@@ -7,8 +7,6 @@
 #include "abi/functor.hpp"
 #include "registration/class_table.hpp"
 
-#include <boost/serialization/access.hpp>
-
 namespace potential_particles {
 
 class Ip2_FrictMat_FrictMat_KnKsPhys_Block final : public yade::IPhysFunctor {
@@ -16,9 +14,7 @@ public:
     ~Ip2_FrictMat_FrictMat_KnKsPhys_Block() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    std::string get2DFunctorType1() const override;
-    std::string get2DFunctorType2() const override;
-    std::string checkOrder() const override;
+    PP_FUNCTOR_2D_TYPES
 
     void go(const boost::shared_ptr<yade::Material>& material1, const boost::shared_ptr<yade::Material>& material2,
             const boost::shared_ptr<yade::Interaction>& interaction) override;
@@ -50,8 +46,7 @@ public:
     }
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 };
 
 } // namespace potential_particles

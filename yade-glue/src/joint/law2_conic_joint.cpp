@@ -3,11 +3,10 @@
 
 #include "abi/scene.hpp"
 #include "abi/scgeom.hpp"
-#include "conic_joint_phys.hpp"
+#include "conic_joint.hpp"
 #include "law2_conic_joint.hpp"
-#include "moving_body.hpp"
+#include "joint_body.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
-#include "posed_body.hpp"
 
 #include "plugin-common/joint_law.hpp"
 

@@ -7,8 +7,6 @@
 #include "abi/functor.hpp"
 #include "registration/class_table.hpp"
 
-#include <boost/serialization/access.hpp>
-
 namespace potential_particles {
 
 struct BodyPush;
@@ -20,9 +18,7 @@ public:
     ~Law2_ScGeomConicPP_ConicJointPhys() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
 
-    std::string get2DFunctorType1() const override;
-    std::string get2DFunctorType2() const override;
-    std::string checkOrder() const override;
+    PP_FUNCTOR_2D_TYPES
 
     bool go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::IPhys>& physics,
             yade::Interaction* interaction) override;
@@ -39,8 +35,7 @@ public:
     }
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 
     void track(const JointEnergies& energies);
 

@@ -2,7 +2,7 @@
 #include "patch_surface.hpp"
 
 #include "pair/sc_geom_conic_pp.hpp"
-#include "posed_body.hpp"
+#include "joint_body.hpp"
 #include "registration/python_bytes.hpp"
 
 #include <algorithm>

@@ -9,8 +9,6 @@
 #include "registration/class_table.hpp"
 #include "step.hpp"
 
-#include <boost/serialization/access.hpp>
-
 namespace potential_particles {
 
 // In the place of YADE's InteractionLoop. Bodies are looked at once a step; pairs that are further apart than their
@@ -29,8 +27,7 @@ public:
     void action() override;
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 
     bool isOurs() const;
     void serveRest(const std::vector<std::size_t>& left);

@@ -5,8 +5,7 @@
 #pragma once
 
 #include "abi/laws.hpp"
-#include "body_in_step.hpp"
-#include "pair_in_step.hpp"
+#include "in_step.hpp"
 
 #include <cmath>
 #include <limits>

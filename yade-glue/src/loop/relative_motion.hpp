@@ -5,7 +5,7 @@
 #pragma once
 
 #include "abi/scgeom.hpp"
-#include "body_in_step.hpp"
+#include "in_step.hpp"
 
 namespace potential_particles {
 

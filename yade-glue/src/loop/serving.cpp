@@ -7,7 +7,7 @@
 #include "abi/shape.hpp"
 #include "contact/ig2_flat_conic_pp.hpp"
 #include "joint/law2_conic_joint.hpp"
-#include "joint/moving_body.hpp"
+#include "joint/joint_body.hpp"
 
 #include <typeinfo>
 

@@ -5,7 +5,7 @@
 #include "abi/primitives.hpp"
 #include "abi/shape.hpp"
 #include "shape/particle_of.hpp"
-#include "particle/pose.hpp"
+#include "particle/particle.hpp"
 #include "plugin-common/motion_bound.hpp"
 
 #include <algorithm>

@@ -6,8 +6,7 @@
 #include "abi/interaction.hpp"
 #include "abi/scene.hpp"
 #include "blocks.hpp"
-#include "body_in_step.hpp"
-#include "pair_in_step.hpp"
+#include "in_step.hpp"
 #include "particle/fetch.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
 

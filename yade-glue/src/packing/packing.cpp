@@ -3,6 +3,8 @@
 
 #include "particle/particle.hpp"
 
+#include "registration/python_bytes.hpp"
+
 #include <boost/python/errors.hpp>
 #include <boost/python/extract.hpp>
 #include <boost/python/tuple.hpp>
@@ -52,8 +54,6 @@ namespace {
         receiver.state = PyEval_SaveThread();
         return goOn ? 0 : 1;
     }
-
-    template <class T> T field(const py::dict& how, const char* name) { return py::extract<T>(how[name]); }
 
     void corner(const py::dict& how, const char* name, double* to)
     {

@@ -7,7 +7,7 @@
 #include "particle/particle.hpp"
 
 #include "plugin-common/motion_bound.hpp"
-#include "plugin-common/triangle.hpp"
+#include "plugin-common/seam.hpp"
 
 #include <algorithm>
 #include <cstdint>

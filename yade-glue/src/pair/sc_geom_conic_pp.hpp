@@ -9,8 +9,6 @@
 
 #include "plugin-common/contact_patch.hpp"
 
-#include <boost/serialization/access.hpp>
-
 #include <potential_particles.h>
 
 #include <algorithm>
@@ -102,8 +100,7 @@ private:
         keptPatch.reset();
     }
 
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 
     std::string pyMemory() const;
     void pySetMemory(const std::string& hexadecimal);

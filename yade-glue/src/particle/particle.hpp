@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The library's particle that belongs to a YADE shape.
+// The library's particle that belongs to a YADE shape; poses as the library has them.
 #pragma once
 
+#include "abi/base.hpp"
 #include "abi/shape.hpp"
+#include "abi/state.hpp"
+
 #include "support.hpp"
 
 #include <potential_particles.h>
@@ -79,5 +82,21 @@ private:
 
 // Throws std::invalid_argument with the library's sentence unless the status is PP_OK.
 void requireOk(pp_status status);
+
+// Distance from `point` (world, inside) to the surface along the unit vector `direction`; 0 when
+// the point lies on the surface or, by rounding, outside.
+double distanceToSurface(const Particle& particle, const pp_pose& pose, const yade::Vector3r& point,
+                         const yade::Vector3r& direction);
+
+// Of local axes.
+constexpr pp_pose identity = { { 0, 0, 0 }, { 1, 0, 0, 0 } };
+
+// shift: of the periodic image in which the body is met.
+inline pp_pose poseOf(const yade::State& state, const yade::Vector3r& shift)
+{
+    const yade::Vector3r at = state.se3.position + shift;
+    const yade::Quaternionr& turn = state.se3.orientation;
+    return { { at.x(), at.y(), at.z() }, { turn.w(), turn.x(), turn.y(), turn.z() } };
+}
 
 } // namespace potential_particles

@@ -57,8 +57,11 @@ template <class Class> void requireReadable(unsigned version)
     PP_CLASS_OVERRIDES                                                                             \
     std::string get1DFunctorType1() const override;
 
-#define PP_FUNCTOR_2D_OVERRIDES                                                                    \
-    PP_CLASS_OVERRIDES                                                                             \
+#define PP_FUNCTOR_2D_TYPES                                                                        \
     std::string get2DFunctorType1() const override;                                                \
     std::string get2DFunctorType2() const override;                                                \
     std::string checkOrder() const override;
+
+#define PP_FUNCTOR_2D_OVERRIDES                                                                    \
+    PP_CLASS_OVERRIDES                                                                             \
+    PP_FUNCTOR_2D_TYPES

@@ -4,7 +4,13 @@
 // BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Class), if scenes hold it.
 #pragma once
 
-#include "archives.hpp"
+// Boost exports a class for those archives that were included before BOOST_CLASS_EXPORT: here the four that YADE saves
+// to and loads from.
+#include <boost/archive/binary_iarchive.hpp>
+#include <boost/archive/binary_oarchive.hpp>
+#include <boost/archive/xml_iarchive.hpp>
+#include <boost/archive/xml_oarchive.hpp>
+#include <boost/serialization/export.hpp>
 
 #include "abi/registry.hpp"
 #include "class_table.hpp"

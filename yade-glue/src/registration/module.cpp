@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The extension module potential_particles._glue. The package's __init__.py decides what to call.
-#include "abi/base.hpp"
+// The extension module potential_particles._glue, and the entry of our classes into YADE. The package's __init__.py
+// decides what to call.
+#include "abi/registry.hpp"
 
 #include "check/load_check.hpp"
+#include "class_table.hpp"
+#include "drawing/gl1_potential_particle_conic.hpp"
+#include "joint/conic_joint.hpp"
 #include "joint/patch_surface.hpp"
 #include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
 #include "rock/rock.hpp"
+#include "shape/conic_potential_particle.hpp"
 #include "shape/plane_lists.hpp"
-#include "registration.hpp"
-#include "shape/retired.hpp"
-#include "drawing/surface_mesh.hpp"
-#include "drawing/window.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
@@ -43,6 +44,25 @@ void setListOf(yade::PotentialParticle& shape, const std::string& name, const py
         throw std::invalid_argument("PotentialParticle has no list '" + name + "'");
 }
 
+// Enters our classes into YADE's factory, class table and Python module yade.wrapper, in the order of class_table.inc.
+// Throws std::runtime_error when a name is taken.
+void registerClasses()
+{
+    // Their class indices must exist before any dispatcher sizes its table.
+    const pp::ConicPotentialParticle shape;
+    const pp::ConicJointMat material;
+    const pp::ConicJointPhys physics;
+
+#define PP_CLASS(Name, Base, First, Second, Version, Doc) pp::enterInFactory<pp::Name>();
+#include "class_table.inc"
+
+    // The list of plugins is read once, when YADE starts; this enters classes later than that.
+    std::vector<std::string> names;
+#define PP_CLASS(Name, Base, First, Second, Version, Doc) names.push_back(#Name);
+#include "class_table.inc"
+    Singleton<yade::Omega>::instance().buildDynlibDatabase(names);
+}
+
 } // namespace
 
 BOOST_PYTHON_MODULE(_glue)
@@ -67,7 +87,7 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("library_version", &pp_version);
     py::def("library_abi", &pp_abi_version);
     py::def("differences_of_layout", &differencesOfLayout);
-    py::def("register_classes", &pp::registerClasses);
+    py::def("register_classes", &registerClasses);
     py::def("stored_particles", &storedParticles);
     py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);

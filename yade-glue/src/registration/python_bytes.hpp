@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// Numbers for numpy, which reads and writes bytes.
+// What Python gives and takes: numbers for numpy, which reads and writes bytes, and settings in a dict.
 #pragma once
 
+#include <boost/python/dict.hpp>
 #include <boost/python/errors.hpp>
+#include <boost/python/extract.hpp>
 #include <boost/python/handle.hpp>
 #include <boost/python/object.hpp>
 
@@ -33,6 +35,11 @@ template <class Row> std::vector<Row> rowsOf(const boost::python::object& bytes)
     if (size > 0)
         std::memcpy(rows.data(), data, static_cast<std::size_t>(size));
     return rows;
+}
+
+template <class T> T field(const boost::python::dict& of, const char* name)
+{
+    return boost::python::extract<T>(of[name]);
 }
 
 } // namespace potential_particles

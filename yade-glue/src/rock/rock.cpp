@@ -17,8 +17,6 @@ namespace potential_particles {
 
 namespace {
 
-    template <class T> T field(const py::dict& from, const char* name) { return py::extract<T>(from[name]); }
-
     void require(pp_status status, const char* message)
     {
         if (status != PP_OK)

@@ -3,7 +3,7 @@
 
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
-#include "particle/pose.hpp"
+#include "particle/particle.hpp"
 
 #include <algorithm>
 #include <array>

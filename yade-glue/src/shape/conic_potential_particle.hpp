@@ -8,7 +8,6 @@
 #include "published.hpp"
 
 #include <boost/python/list.hpp>
-#include <boost/serialization/access.hpp>
 
 #include <optional>
 
@@ -40,8 +39,7 @@ public:
     bool automaticBox = true;
 
 private:
-    friend class boost::serialization::access;
-    template <class Archive> void serialize(Archive& archive, unsigned);
+    PP_ARCHIVED
 
     // For Python: the particle, or std::invalid_argument saying why there is none.
     const pp_particle* require() const;

@@ -3,7 +3,7 @@
 // The shape's attributes in Python.
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
-#include "particle/pose.hpp"
+#include "particle/particle.hpp"
 #include "registration/definitions.hpp"
 
 namespace potential_particles {

@@ -2,7 +2,7 @@
 #include "plane_lists.hpp"
 
 #include "particle/particle_store.hpp"
-#include "retired.hpp"
+#include "published.hpp"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "abi/base.hpp"
 
-#include "retired.hpp"
+#include "published.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "posed_body.hpp"
+#include "joint_body.hpp"
 
 #include "abi/primitives.hpp"
 #include "contact/facet_mesh.hpp"
-#include "particle/pose.hpp"
+#include "particle/particle.hpp"
 #include "shape/particle_of.hpp"
 
 namespace potential_particles {

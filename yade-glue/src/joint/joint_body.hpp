@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// One of the two bodies of a joint in YADE: how it moves, and what pushes it.
+// One of the two bodies of a joint in YADE: how it moves, what pushes it, and its shape.
 #pragma once
 
 #include "abi/scene.hpp"
+#include "abi/shape.hpp"
 #include "abi/state.hpp"
 
+#include "particle/particle.hpp"
+
 #include "plugin-common/joint.hpp"
+#include "plugin-common/patch_rim.hpp"
+
+#include <memory>
 
 namespace potential_particles {
 
@@ -49,5 +55,15 @@ inline void push(yade::Scene& scene, int id, const JointForces::Push& by, BodyPu
     scene.forces().addForce(id, by.force);
     scene.forces().addTorque(id, by.torque);
 }
+
+// shift: of its periodic image, world axes. Throws std::invalid_argument for a shape of another kind; one that is
+// refused as a particle is taken for a wall.
+class PosedBody : public PosedShape {
+public:
+    PosedBody(const boost::shared_ptr<yade::Shape>& shape, const yade::State& state, const yade::Vector3r& shift);
+
+private:
+    std::shared_ptr<const Particle> keeper;
+};
 
 } // namespace potential_particles
