@@ -172,7 +172,7 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
         walks,
         sweeps,
         parts,
-        machine: machine::Machine::here(None),
+        machine: machine::Machine::here(),
     };
     findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
     findings.print();
