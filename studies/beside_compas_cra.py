@@ -134,10 +134,12 @@ def main():
     options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     options.add_argument("--output", default="out/compas_cra")
     options.add_argument("--only", default="", help="examples whose name has this in it")
-    options = options.parse_args()
-    out, rows = Path(options.output), []
+    chosen = options.parse_args()
+    names, out, rows = [name for name in EXAMPLES if chosen.only in name], Path(chosen.output), []
+    if not names:
+        options.error(f"--only: none of {', '.join(EXAMPLES)} has {chosen.only!r} in it")
     out.mkdir(parents=True, exist_ok=True)
-    for name in filter(lambda name: options.only in name, EXAMPLES):
+    for name in names:
         rows.append(judged(name))
         print(rows[-1], flush=True)
     answered = [one for one in rows if one["factor_stands"] is not None]
