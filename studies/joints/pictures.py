@@ -59,11 +59,11 @@ def _save(figure, path):
     pyplot.close(figure)
 
 
-def running_bond(path):
-    """The pressure in the joints of the wall in the scene."""
+def pressure(path):
+    """That in the joints of the scene."""
     potential_particles.plot(str(path), patches=True, towards=(0.4, -1, 0.35), size=(1000, 640))
 
 
 # Of what a row returned, and of the scene that it left.
 OF_ROWS = {"housner": housner}
-OF_SCENES = {"running_bond": running_bond}
+OF_SCENES = dict.fromkeys(("running_bond", "reduced_wall", "reduced_dome", "reduced_tunnel"), pressure)
