@@ -53,7 +53,7 @@ pub enum EquilibriumError {
     #[error("the load factor is infinite: the live loads can be carried whatever their size")]
     Unlimited,
     /// Strength does not matter.
-    #[error("the strength factor is infinite: it stands without friction and cohesion")]
+    #[error("the strength factor is infinite: it stands however small friction and cohesion are")]
     StandsWithoutStrength,
     /// The solver reached neither a state nor a mechanism. The scene may stand or fall.
     #[error(

@@ -203,7 +203,13 @@ impl Sequence<'_> {
                 (Ok(Outcome::Falls(velocities)), _) if programs == 1 => {
                     return self.problem.falls(&velocities, &now, programs).map(Ended::Falls);
                 }
-                // Only strength bounded by the last normal forces has failed.
+                // Strength that is bounded by the last normal forces has failed; with more dilatancy those of the
+                // program count, too.
+                (Ok(Outcome::Falls(_)), Some(_)) if dilatancy < 1.0 => {
+                    dilatancy = more(dilatancy);
+                    pace *= SLOWER;
+                    continue;
+                }
                 (Ok(Outcome::Falls(_)), _) => {
                     let status = format!("program {programs} of the sequence has no equilibrium");
                     return Err(EquilibriumError::NotConverged { status });
@@ -227,7 +233,19 @@ impl Sequence<'_> {
                 (Err(error), _) => return Err(error),
             };
             if self.goal == Goal::Strength && solved.factor <= SETTLED {
-                return Err(self.unlimited);
+                match &last {
+                    None => return Err(self.unlimited),
+                    Some(last) if dilatancy == 1.0 => {
+                        bracket[1] = last.factor;
+                        halves = true;
+                    }
+                    // Beside large normal forces of the last program no factor is small.
+                    Some(_) => {
+                        dilatancy = more(dilatancy);
+                        pace *= SLOWER;
+                    }
+                }
+                continue;
             }
             if let Some(last) = last.as_ref().filter(|_| self.goal == Goal::Strength && dilatancy == 1.0) {
                 bracket[usize::from(solved.factor <= last.factor)] = last.factor;
@@ -285,6 +303,11 @@ fn mixed(one: &[[f64; 3]], next: &[[f64; 3]], part: f64) -> Vec<[f64; 3]> {
 /// The dilatancy of the next program.
 fn less(dilatancy: f64) -> f64 {
     if KEPT * dilatancy > NO_DILATANCY { KEPT * dilatancy } else { 0.0 }
+}
+
+/// The dilatancy before that.
+fn more(dilatancy: f64) -> f64 {
+    (dilatancy.max(NO_DILATANCY) / KEPT).min(1.0)
 }
 
 /// A κ inside the bracket; `None` once its ends agree.
