@@ -269,7 +269,9 @@ impl Sequence<'_> {
             let most = last.as_ref().filter(|_| dilatancy == 1.0 && bracket[0] > 0.0);
             let most = most.map_or(f64::INFINITY, |last| last.factor / (KEPT * KEPT));
             if dilatancy == 0.0 {
-                pace = if step * step_before < 0.0 { SLOWER * pace } else { (FASTER * pace).min(1.0) };
+                // Turns within the accuracy of a program are none.
+                let turns = step * step_before < 0.0 && step.abs() > SETTLED * solved.factor.abs();
+                pace = if turns { SLOWER * pace } else { (FASTER * pace).min(1.0) };
             }
             step_before = step;
             last = Some(match last {
