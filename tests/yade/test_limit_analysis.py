@@ -93,7 +93,7 @@ for change, text in (
     (lambda: limit_analysis("falls"), "'falls' is unknown"), (lambda: limit_analysis("load"), "live load"),
     (lambda: limit_analysis(loads={7: ((1, 0, 0), (0, 0, 0))}), "names body 7"),
     (lambda: limit_analysis(loads={0: ((1, 0, 0), (0, 0, 0))}), "names body 0"),
-    (lambda: limit_analysis(push=(1, math.nan, 0)), "push"), (lambda: limit_analysis("strength"), "without friction")):
+    (lambda: limit_analysis(push=(1, math.nan, 0)), "push"), (lambda: limit_analysis("strength"), "however small")):
     block_on()
     check.raises(ValueError, change, f"refused: {text}", text)
 block_on()
