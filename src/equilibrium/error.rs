@@ -52,7 +52,7 @@ pub enum EquilibriumError {
     /// No load factor, however large, makes it fall.
     #[error("the load factor is infinite: the live loads can be carried whatever their size")]
     Unlimited,
-    /// Strength does not matter.
+    /// Any strength will do.
     #[error("the strength factor is infinite: it stands however small friction and cohesion are")]
     StandsWithoutStrength,
     /// The solver reached neither a state nor a mechanism. The scene may stand or fall.

@@ -198,14 +198,16 @@ impl Sequence<'_> {
             let near =
                 near.map(|last| Near { weight: NEARNESS * strength(last.factor).min(1.0), forces: &last.forces });
             let outcome = solve(&self.problem.assembly, &now, self.goal, near);
+            // A strength factor has a least φ above 0, or none.
+            let has_factor = |solved: &Solved| self.goal == Goal::Load || solved.factor > SETTLED;
             let solved = match (outcome, last.as_mut().filter(|_| self.goal == Goal::Strength)) {
-                (Ok(Outcome::Solved(solved)), _) => solved,
+                (Ok(Outcome::Solved(solved)), _) if has_factor(&solved) => solved,
                 (Ok(Outcome::Falls(velocities)), _) if programs == 1 => {
                     return self.problem.falls(&velocities, &now, programs).map(Ended::Falls);
                 }
-                // Strength that is bounded by the last normal forces has failed; with more dilatancy those of the
-                // program count, too.
-                (Ok(Outcome::Falls(_)), Some(_)) if dilatancy < 1.0 => {
+                // The strength that the last normal forces give is too small, or, where they are large, so great that φ
+                // says nothing: with more dilatancy the normal forces of the program count, too.
+                (Ok(Outcome::Falls(_) | Outcome::Solved(_)), Some(_)) if dilatancy < 1.0 => {
                     dilatancy = more(dilatancy);
                     pace *= SLOWER;
                     continue;
@@ -216,37 +218,24 @@ impl Sequence<'_> {
                 }
                 // Friction of this κ clamps blocks with forces of any size, or this κ is too near to that for clarabel:
                 // forces of the least norm are found there, too. If they are not, it counts as too weak: the safe side.
-                (unknown @ (Ok(Outcome::Unlimited) | Err(EquilibriumError::NotConverged { .. })), Some(last))
-                    if dilatancy == 1.0 =>
-                {
+                (
+                    unknown
+                    @ (Ok(Outcome::Unlimited | Outcome::Solved(_)) | Err(EquilibriumError::NotConverged { .. })),
+                    Some(last),
+                ) if dilatancy == 1.0 => {
                     let stands =
                         unknown.is_ok() || matches!(self.problem.with_part(last.factor), Ok(Outcome::Solved(_)));
                     bracket[usize::from(stands)] = last.factor;
                     halves = true;
                     continue;
                 }
-                (Ok(Outcome::Unlimited), Some(_)) => {
+                (Ok(Outcome::Unlimited | Outcome::Solved(_)), None) => return Err(self.unlimited),
+                (Ok(Outcome::Unlimited | Outcome::Solved(_)), Some(_)) => {
                     dilatancy = less(dilatancy);
                     continue;
                 }
-                (Ok(Outcome::Unlimited), None) => return Err(self.unlimited),
                 (Err(error), _) => return Err(error),
             };
-            if self.goal == Goal::Strength && solved.factor <= SETTLED {
-                match &last {
-                    None => return Err(self.unlimited),
-                    Some(last) if dilatancy == 1.0 => {
-                        bracket[1] = last.factor;
-                        halves = true;
-                    }
-                    // Beside large normal forces of the last program no factor is small.
-                    Some(_) => {
-                        dilatancy = more(dilatancy);
-                        pace *= SLOWER;
-                    }
-                }
-                continue;
-            }
             if let Some(last) = last.as_ref().filter(|_| self.goal == Goal::Strength && dilatancy == 1.0) {
                 bracket[usize::from(solved.factor <= last.factor)] = last.factor;
             }
@@ -269,7 +258,7 @@ impl Sequence<'_> {
             let most = last.as_ref().filter(|_| dilatancy == 1.0 && bracket[0] > 0.0);
             let most = most.map_or(f64::INFINITY, |last| last.factor / (KEPT * KEPT));
             if dilatancy == 0.0 {
-                // Turns within the accuracy of a program are none.
+                // A change within the accuracy of a program is no turning back.
                 let turns = step * step_before < 0.0 && step.abs() > SETTLED * solved.factor.abs();
                 pace = if turns { SLOWER * pace } else { (FASTER * pace).min(1.0) };
             }
@@ -307,7 +296,7 @@ fn less(dilatancy: f64) -> f64 {
     if KEPT * dilatancy > NO_DILATANCY { KEPT * dilatancy } else { 0.0 }
 }
 
-/// The dilatancy before that.
+/// The dilatancy of the program before.
 fn more(dilatancy: f64) -> f64 {
     (dilatancy.max(NO_DILATANCY) / KEPT).min(1.0)
 }

@@ -29,10 +29,11 @@ pub(super) const BEST: f64 = 1e-10;
 const ATTEMPTS: [(f64, f64); 4] = [(BEST, 1e-10), (BEST, 1e-8), (1e-9, 1e-9), (1e-8, 1e-7)];
 /// Accuracy that is taken where it gets no further.
 const REDUCED: f64 = 1e-7;
-/// Free bodies from which on the first attempt is left out, which ends a wall of 3,164 blocks without an answer and
-/// solves one of 976 (measured), and from which on a program ends where residuals have not halved for so many
-/// iterations: the wall would need 100 instead of 55. Small scenes need all accuracy: an arch at its limit.
+/// From so many free bodies on, the first attempt is left out: it has no answer for a wall of 3,164 blocks, and solves
+/// one of 976 (measured).
 const MANY: usize = 2000;
+/// Iterations without a halving of the residuals after which a program of so many bodies ends: the wall takes 55 in the
+/// place of 100. Smaller scenes go on, as an arch at its limit needs all accuracy.
 const STALLED: u32 = 8;
 /// A strength below this part of the unit of force is none: no cone is that thin beside the tolerance.
 const NO_STRENGTH: f64 = 1e-12;
@@ -172,10 +173,10 @@ impl Program {
         if !corner.counts() {
             return self.places.push(Rows::None);
         }
-        let smooth = slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH;
-        let cone = !smooth && slope > 0.0 && growth == 0.0 && tension * slope >= base;
-        // The multiplier of the normal row is n and what the cone allows of tension.
-        let shift = if cone { base / slope } else { tension };
+        let is_smooth = slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH;
+        let is_cone = slope > 0.0 && growth == 0.0 && tension * slope >= base;
+        // The multiplier of the normal's row is n + shift: its cone has its apex at n = -shift.
+        let shift = if is_cone { base / slope } else { tension };
         // Columns of q in the order of the frame: ε q is p, so that f = f̄ + q.
         let q = near.map(|(weight, [n, t, s])| [n + shift, t, s].map(|part| (self.pulled(weight, part), weight)));
         let along = |axis: usize, factor: f64| {
@@ -187,13 +188,13 @@ impl Program {
             entries
         };
         let first = self.right.len();
-        if smooth {
+        if is_smooth {
             corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
             self.row(along(0, 1.0), 0.0);
             self.cones.push(SupportedConeT::NonnegativeConeT(1));
             return self.places.push(Rows::Smooth(first));
         }
-        if cone {
+        if is_cone {
             corner.relative(0).for_each(|(column, value)| self.cost[column] += shift * value);
             self.row(along(0, 1.0), 0.0);
             self.row(along(1, slope), 0.0);
@@ -238,14 +239,16 @@ impl Program {
         let attempt = |tuning: (f64, f64)| {
             let mut solver = DefaultSolver::new(&form, &self.cost, &matrix, &self.right, &self.cones, settings(tuning))
                 .map_err(|error| failed(error.to_string()))?;
-            let (mut least, mut since) = (f64::INFINITY, 0);
-            solver.set_termination_callback(move |now: &DefaultInfo<f64>| {
-                let off = now.res_primal.max(now.res_dual).max(now.gap_abs.min(now.gap_rel));
-                if off < 0.5 * least {
-                    (least, since) = (off, now.iterations);
-                }
-                is_large && least <= REDUCED && now.iterations >= since + STALLED
-            });
+            if is_large {
+                let (mut least, mut since) = (f64::INFINITY, 0);
+                solver.set_termination_callback(move |now: &DefaultInfo<f64>| {
+                    let off = now.res_primal.max(now.res_dual).max(now.gap_abs.min(now.gap_rel));
+                    if off < 0.5 * least {
+                        (least, since) = (off, now.iterations);
+                    }
+                    least <= REDUCED && now.iterations >= since + STALLED
+                });
+            }
             solver.solve();
             Ok(solver.solution)
         };
