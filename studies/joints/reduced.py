@@ -8,7 +8,7 @@ import time
 
 import numpy as np
 import potential_particles
-from buildings import FRICTION, GRAVITY, Building, wall
+from buildings import GRAVITY, Building, wall
 from potential_particles import rock
 from scene import O, fresh, run
 from yade import Vector3

@@ -40,6 +40,8 @@ class Record(list):
     """Looks; each of their fields is a column."""
 
     def __getattr__(self, name):
+        if name not in Look._fields:
+            raise AttributeError(name)
         return [getattr(one, name) for one in self]
 
     def until(self, step):

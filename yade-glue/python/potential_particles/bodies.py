@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""YADE bodies made of shapes; whether forces move a body, and where its periodic image is."""
+"""YADE bodies made of shapes; what moves a body and with it, its size, and where
+its periodic image is."""
+import math
+
 from .arguments import number, unit_quaternion, vector
 
 
@@ -51,6 +54,17 @@ def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 
 def is_free(body):
     """Whether forces move a body in any of its degrees of freedom."""
     return set(body.state.blockedDOFs) != set("xyzXYZ")
+
+
+def owner(body):
+    """What moves: the clump of a member, any other body itself."""
+    import yade
+    return yade.O.bodies[body.clumpId] if body.isClumpMember else body
+
+
+def size_of(body):
+    """The radius of a ball of its mass and its largest moment of inertia, length."""
+    return math.sqrt(2.5 * max(body.state.inertia) / body.state.mass)
 
 
 def lasting(of, body):

@@ -10,7 +10,7 @@ import numpy as np
 
 from . import library
 from .arguments import vector
-from .bodies import is_free, lasting
+from .bodies import is_free, lasting, owner, size_of
 
 QUESTIONS = {"stands": 0, "load": 1, "strength": 2}
 # A face touches where its normal is within this angle of that of the contact, radians.
@@ -123,6 +123,9 @@ def solved(question, dilatant, bodies, names, rows, pairs):
 
 
 def _used(rows, forces):
+    """Of each contact: its force along the joint over friction and cohesion there; rows as of solved(), forces of each
+    (corners, 3).
+    """
     used = np.zeros(len(rows))
     totals = np.array([of.sum(axis=0) for of in forces])
     sizes = np.linalg.norm(totals, axis=1)
@@ -143,13 +146,8 @@ def asked(question):
     return question
 
 
-def owner(body):
-    """What moves: the clump of a member."""
-    import yade
-    return yade.O.bodies[body.clumpId] if body.isClumpMember else body
-
-
 def gravity_of(engines):
+    """That of NewtonIntegrator, (3,); 0 without one."""
     import yade
     for engine in engines:
         if isinstance(engine, yade.NewtonIntegrator):
@@ -178,8 +176,7 @@ def _body(scene, number, gravity, direction, live):
 
 
 def _refuse_motion(body, gravity):
-    # The radius of a ball of its inertia will do for its size.
-    size = math.sqrt(2.5 * max(body.state.inertia) / body.state.mass)
+    size = size_of(body)
     speed = max(body.state.vel.norm(), size * body.state.angVel.norm())
     if speed > SLOW * math.sqrt(2 * gravity * size) > 0:
         raise ValueError(f"body {body.id} moves at {speed:.3g} m/s: let the scene come to rest, or set velocities to 0")

@@ -7,17 +7,18 @@ a bond. What presses in a joint follows from the poses of its two bodies, which 
     (K + h D) u = w + f,
 
 w the weights of the bodies, f the other forces on them as YADE's own functors find them, K the stiffness of the
-contacts, D its first diagonal and u shifts and turns, until nothing is left. In the first rounds these springs are set
-anew to the program; in those that follow they go with the bodies, as in a step, and slip where friction is at its
-limit. The drag h grows where a round leaves more than the one before: contacts open and slip all of a sudden.
+contacts, D its first diagonal and u shifts and turns, until nothing is left. In the first rounds the springs of friction,
+twist and bonds are set to the program's forces again; later they go with the bodies, as in a step, and slip where
+friction is at its limit. Where a round leaves more than the one before, as contacts have opened or slipped, the drag h
+grows.
 """
 import contextlib
 import dataclasses
 
 import numpy as np
 
-from .bodies import is_free, lasting
-from .limit_analysis import gravity_of, owner
+from .bodies import is_free, lasting, owner, size_of
+from .limit_analysis import gravity_of
 
 # Largest force that may be left on a body, over the mean load of one; the rounds end at LEFT.
 ENOUGH, LEFT = 1e-6, 1e-8
@@ -45,17 +46,17 @@ class Start:
 
 def start_from(found):
     """Brings the scene to rest with the forces of an answer of limit_analysis("stands"), so that a run begins in
-    equilibrium: the largest force then left on a body is at most 1e-6 of the mean load, weight and lasting force, of
-    one. Returns a Start.
+    equilibrium. The largest force then left on a body is at most 1e-6 of the mean load (weight and lasting force) of a
+    body. Returns a Start.
 
     Bodies move by about the overlaps that carry them, velocities become 0; O.iter and O.time stay. Contacts are joints
-    (ConicJointMat). Bonds take all of the program's forces, joints its friction where bodies press as it says; joints
-    beyond what equilibrium needs share the loads by their stiffness (`changed`).
+    (ConicJointMat). Bonds take all of the program's forces, joints its friction and twist. Where equilibrium alone does
+    not determine the forces, joints share the loads by their stiffness: `changed` says how far from the program.
 
     ValueError: an answer that does not stand or is none to "stands", or has other contacts than the scene; other laws,
     whose points carry a moment only by where they lie; held bodies that move. RuntimeError: no rest was found, as of
-    scenes that stand only by forces at corners, which no bed of springs and no bond can bring about; the scene is then
-    as it was, but for velocities.
+    scenes that stand only by forces at the very corners, which elastic joints cannot carry; the scene is then as it
+    was, but for velocities.
     """
     import yade
     scene = _Scene(yade.O)
@@ -123,9 +124,8 @@ class _Scene:
         self.weights = np.pad(np.outer(masses, gravity_of(omega.engines)), ((0, 0), (0, 3)))
         lasts = [list(lasting(omega.forces.permF, body)) for body in self.bodies]
         self.mean_load = np.linalg.norm(self.weights[:, :3] + lasts, axis=1).mean()
-        # The radius of a ball of its inertia will do for the size of a body.
-        self.sizes = np.sqrt(2.5 * np.array([max(body.state.inertia) for body in self.bodies]) / masses)
-        self.scale = np.repeat(np.stack([np.ones_like(self.sizes), self.sizes], axis=1), 3, axis=1)
+        sizes = np.array([size_of(body) for body in self.bodies])
+        self.scale = np.repeat(np.stack([np.ones_like(sizes), sizes], axis=1), 3, axis=1)
         self.diagonal = None
 
     def contacts(self):
@@ -265,7 +265,7 @@ def _set_friction(contact, force, moment):
 def _axes(contact):
     """Of a bond, as columns: the normal and two across it."""
     import yade
-    return np.array((yade.O.bodies[contact.id1].state.ori * contact.phys.bondTurn1).toRotationMatrix()).reshape(3, 3)
+    return np.array((yade.O.bodies[contact.id1].state.ori * contact.phys.bondTurn1).toRotationMatrix())
 
 
 def _bending(physics):

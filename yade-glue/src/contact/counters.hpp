@@ -99,13 +99,13 @@ private:
     Clock::time_point begin;
 };
 
-// Cheapest first.
 struct AnswerPath {
     Count count;
     const char* name; // in Python
     bool withoutSolve; // answered apart and no solver was started
 };
 
+// Cheapest first.
 constexpr AnswerPath answerPaths[] = {
     { Count::motion, "motion", true }, // apart: they have moved less than the distance that was between them
     { Count::spheres, "spheres", true }, // apart: so are the balls around them

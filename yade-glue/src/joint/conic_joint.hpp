@@ -34,9 +34,8 @@ public:
     {
         using M = ConicJointMat;
         visit("normalStiffness", &M::normalStiffness,
-              "Normal stiffness per area, N/m^3; 0: young over twice the bounding radius of the body. A joint takes "
-              "the harmonic mean of "
-              "its two bodies.");
+              "Normal stiffness per area, N/m^3; 0: young over twice the bounding radius of the body. A joint takes the "
+              "harmonic mean of its two bodies.");
         visit("shearStiffness", &M::shearStiffness,
               "Shear stiffness per area, N/m^3; 0: poisson times the normal one.");
         visit("restitution", &M::restitution,
@@ -124,8 +123,7 @@ public:
         visit("bondArea", &P::bondArea, "Area of the bond, m^2; 0 without one.", 1);
         visit("bondMoments", &P::bondMoments,
               "Polar moment of the bonded area about its centroid, and its second moments against bending about y and "
-              "z of the "
-              "bond, m^4.",
+              "z of the bond, m^4.",
               1);
         visit("bondPoint1", &P::bondPoint1, "Centroid of the bonded area, axes of body 1, from its centre, m.", 1);
         visit("bondPoint2", &P::bondPoint2, "The same of body 2.", 1);

@@ -5,6 +5,7 @@ import os
 import numpy as np
 import yade
 
+from ..bodies import is_free, owner
 from ..files import written
 from ..limit_analysis import clipped
 from .drawn import ShapeMeshes
@@ -35,8 +36,8 @@ def plot_equilibrium(found, file, towards=None):
     blocks = [block for block in blocks if block.faces]
     if not any(not block.held for block in blocks):
         raise ValueError("no free body of the answer can be drawn")
-    title = {"stands": "it stands" if found.stands else "it falls"}.get(
-        found.question, f"factor {found.factor:.4g}" if found.stands else "it falls")
+    title = "it stands" if found.question == "stands" else f"factor {found.factor:.4g}"
+    title = title if found.stands else "it falls"
     used = found.used[found.contact_of_corner]
     drawn = picture([(title, blocks, found.corners, found.forces, used)],
                     _side(blocks) if towards is None else towards, width=8)
@@ -45,8 +46,6 @@ def plot_equilibrium(found, file, towards=None):
 
 
 def _block(body, velocities, meshes):
-    from ..bodies import is_free
-    from ..limit_analysis import owner
     own = owner(body)
     linear, angular = map(np.array, velocities.get(own.id, (np.zeros(3), np.zeros(3))))
     turn, place = rotation_matrix(body.state.ori), np.array(body.state.pos)

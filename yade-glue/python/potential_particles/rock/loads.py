@@ -8,6 +8,7 @@ Over a triangle of area A a pressure that is p_i at its corners x_i, and linear 
 import numpy as np
 
 from ..arguments import number, positive
+from ..bodies import owner
 from .scene import marked, loads_of
 
 
@@ -55,7 +56,7 @@ def apply_loads(ids, loads):
         body = yade.O.bodies[int(one)]
         if body is None:
             continue
-        carrier = yade.O.bodies[body.clumpId] if body.isClumpMember else body
+        carrier = owner(body)
         arm = np.array(body.state.pos) - np.array(carrier.state.pos)
         turned = np.concatenate([load[:3], load[3:] + np.cross(arm, load[:3])])
         forces[carrier.id] = forces.get(carrier.id, 0.0) + turned
