@@ -1829,7 +1829,8 @@ pp_status pp_particle_surface_distance_2d(const struct pp_particle_2d *particle,
                                           const double *direction,
                                           double *distance);
 
-// Area, centroid and second moments for unit density; tolerance as in pp_particle_mass_properties.
+// Area, centroid and second moments for unit density, in closed form. The tolerance, as in
+// pp_particle_mass_properties, counts where rounding leaves more than that: there a fine polygon answers.
 //
 // Errors: PP_NULL_POINTER, PP_BAD_SETTING.
 pp_status pp_particle_area_properties_2d(const struct pp_particle_2d *particle,

@@ -50,17 +50,17 @@ pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
 /// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens
 /// of seconds.
 const MOST_CELLS: usize = 200_000;
-pub(crate) const MOST_WORK: usize = 1_000_000_000;
+const MOST_WORK: usize = 1_000_000_000;
 
 /// Where the two parts of its error differ by less than this factor, a cell is halved in both directions.
 const ALIKE: f64 = 4.0;
 
 /// Least share of the tolerance that is left to the cells, where rounding takes more than all of it.
-pub(crate) const LEAST_PART: f64 = 0.1;
+const LEAST_PART: f64 = 0.1;
 
 /// Factor by which the units of the errors may be off, and how often these units are computed again.
-pub(crate) const SAME_UNITS: f64 = 1.05;
-pub(crate) const MOST_UNITS: usize = 8;
+const SAME_UNITS: f64 = 1.05;
+const MOST_UNITS: usize = 8;
 
 /// Rounding of a sum of moments, relative.
 pub(crate) const OF_SUMS: f64 = 4.0 * f64::EPSILON;

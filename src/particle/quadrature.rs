@@ -1,4 +1,4 @@
-//! The rule of mass and area properties on [0, 1], and what its error is at most.
+//! The rule of mass properties on [0, 1], and what its error is at most.
 
 /// Number of points.
 pub(crate) const POINTS: usize = 7;

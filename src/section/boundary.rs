@@ -41,6 +41,8 @@ pub(super) struct Boundary<'s> {
     switching: Option<u32>,
     /// Estimated rounding of S at the current point, with that of the last arc, in units of ε.
     rounding: f64,
+    /// The same at the beginning of the last arc.
+    rounding_before: f64,
     /// Number of rays passed.
     rays: usize,
     /// Number of arcs so far.
@@ -73,6 +75,7 @@ impl<'s> Boundary<'s> {
             here,
             switching: None,
             rounding: here.rounding,
+            rounding_before: here.rounding,
             rays: 0,
             arcs: 0,
         };
@@ -90,6 +93,13 @@ impl<'s> Boundary<'s> {
     pub fn is_closed(&self) -> bool {
         let gap = 2.0 * self.here.half_gradient.dot(&(self.point - self.start));
         self.is_complete() && gap.abs() <= MISS * f64::EPSILON * self.rounding
+    }
+
+    /// Estimated bound on the distance of the last arc from S = 1, length: what S misses 1 by at its ends, it may miss
+    /// all along, also where the slope is least.
+    pub fn off(&self) -> f64 {
+        let missed = self.here.value.abs() + f64::EPSILON * (self.rounding_before + self.rounding);
+        0.5 * missed / self.here.half_gradient.norm().min(self.curve.half_gradient.norm())
     }
 
     /// The next arc. Fails when there is none, and when S ≠ 1 at its end by more than rounding, which is the check that
@@ -112,6 +122,7 @@ impl<'s> Boundary<'s> {
         self.switching = if let Event::Line(i) = event { Some(i) } else { None };
         self.point = arc.to;
         let before = self.here.distance;
+        self.rounding_before = self.here.rounding;
         self.here = self.cross_section.after_step(&self.point, &step);
         let length = before + self.here.distance;
         self.rounding = self.here.rounding + self.curve.rounding(tau, &arc, &self.here.half_gradient, length);

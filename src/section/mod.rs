@@ -15,6 +15,7 @@
 //! | `cross_section` | S of one particle in the section |
 //! | `boundary` | the boundary of a cross-section, arc by arc, counter-clockwise |
 //! | `intersection` | the area of the intersection of two boundaries |
+//! | `moments` | area and moments of one particle's cut |
 //! | `quadrature` | the same by adaptive quadrature over rays: the fallback |
 
 mod arc;
@@ -25,6 +26,7 @@ mod depth;
 mod edge_curve;
 mod intersection;
 mod lines;
+pub(crate) mod moments;
 mod plane_section;
 mod quadrature;
 

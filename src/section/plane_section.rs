@@ -18,7 +18,7 @@ pub(super) struct PlaneSection<'a> {
 
 /// Why the closed form gives no area.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Failure {
+pub(crate) enum Failure {
     /// The contact point is outside a particle.
     Outside,
     /// More planes come close than the buffer holds.

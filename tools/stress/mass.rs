@@ -398,5 +398,29 @@ fn plane_any(seed: u64, index: u64, random: &mut Random) -> Tally {
             break particle;
         }
     };
-    compared((seed, index, "any of the plane", 1), None, |tolerance| of_plane(&made, tolerance))
+    let reference = of_outline(&made);
+    compared((seed, index, "any of the plane", 1), Some(reference), |tolerance| of_plane(&made, tolerance))
+}
+
+/// By the polygon of an outline, whose sides are nowhere further from the boundary than its tolerance.
+fn of_outline(particle: &planar::Particle) -> Moments<2> {
+    let tolerance = 1e-9 * particle.bounding_radius();
+    let points = particle.outline(tolerance).unwrap();
+    let (mut area, mut first, mut second) = (0.0, Vector2::zeros(), Matrix2::zeros());
+    let sides = || points.iter().zip(points.iter().cycle().skip(1));
+    for (from, to) in sides() {
+        let (part, sum) = (0.5 * from.perp(to), from + to);
+        area += part;
+        first += part / 3.0 * sum;
+        second += part / 12.0 * (from * from.transpose() + to * to.transpose() + sum * sum.transpose());
+    }
+    let root = (second / area).cholesky().and_then(|root| root.l().try_inverse());
+    let error = root.map_or(f64::NAN, |unscaled| {
+        let of_side = |(from, to): (&Vector2<f64>, &Vector2<f64>)| {
+            let far = (unscaled * from).norm().max((unscaled * to).norm());
+            (to - from).norm() * (1.0 + far).max(far * far)
+        };
+        tolerance * sides().map(of_side).sum::<f64>() / area
+    });
+    Moments { volume: area, centroid: first / area, second, error }
 }

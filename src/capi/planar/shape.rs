@@ -99,7 +99,8 @@ pub unsafe extern "C" fn pp_particle_surface_distance_2d(
     })
 }
 
-/// Area, centroid and second moments for unit density; tolerance as in pp_particle_mass_properties.
+/// Area, centroid and second moments for unit density, in closed form. The tolerance, as in
+/// pp_particle_mass_properties, counts where rounding leaves more than that: there a fine polygon answers.
 ///
 /// Errors: PP_NULL_POINTER, PP_BAD_SETTING.
 #[unsafe(no_mangle)]
