@@ -72,75 +72,6 @@
 // PP_ABI_VERSION.
 #define PP_ABI_VERSION 3
 
-// Numbers of the structs for pp_struct_size: PP_STRUCT_POSE is that of struct pp_pose, and so on.
-#define PP_STRUCT_POSE 1
-
-#define PP_STRUCT_SETTINGS 2
-
-#define PP_STRUCT_CONTACT 4
-
-#define PP_STRUCT_CLOSEST 5
-
-#define PP_STRUCT_MASS_PROPERTIES 6
-
-#define PP_STRUCT_POSE_2D 7
-
-#define PP_STRUCT_CONTACT_2D 8
-
-#define PP_STRUCT_CLOSEST_2D 9
-
-#define PP_STRUCT_AREA_PROPERTIES 12
-
-#define PP_STRUCT_PACKING 14
-
-#define PP_STRUCT_PLACEMENT 15
-
-#define PP_STRUCT_FLAT_CONTACT 13
-
-#define PP_STRUCT_PAIR_STATE 16
-
-#define PP_STRUCT_PATCH 17
-
-#define PP_STRUCT_PATCH_POINT 18
-
-#define PP_STRUCT_PATCH_2D 19
-
-#define PP_STRUCT_PATCH_POINT_2D 20
-
-#define PP_STRUCT_PATCH_STATE 21
-
-#define PP_STRUCT_JOINT 22
-
-#define PP_STRUCT_JOINT_SET 23
-
-#define PP_STRUCT_SLICE_SETTINGS 24
-
-#define PP_STRUCT_ROCK_SUMMARY 25
-
-#define PP_STRUCT_BLOCK 26
-
-#define PP_STRUCT_BLOCK_FACE 27
-
-#define PP_STRUCT_FACE_PARTNERS 28
-
-#define PP_STRUCT_DERIVATIVES 29
-
-#define PP_STRUCT_CONTACT_WEIGHTS 30
-
-#define PP_STRUCT_SHAPE_GRADIENT 31
-
-#define PP_STRUCT_POSE_GRADIENT 32
-
-#define PP_STRUCT_PATCH_DERIVATIVES 33
-
-#define PP_STRUCT_BUILT 34
-
-#define PP_STRUCT_RIGID_BODY 35
-
-#define PP_STRUCT_RIGID_CONTACT 36
-
-#define PP_STRUCT_EQUILIBRIUM_RESULT 37
-
 // Question of pp_equilibrium: do forces exist that hold all bodies?
 #define PP_STANDS 0
 
@@ -285,8 +216,8 @@
 // No patch was found around the contact point, and force and area are 0: an overlap within rounding.
 #define PP_PATCH_EMPTY 8
 
-// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): it has no points,
-// and area and moments are those of that pose.
+// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): it has no
+// points, and area and moments are those of that pose.
 #define PP_PATCH_CARRIED 16
 
 // Whether a plane is active at the contact point, or at a surface point, is uncertain within the bound on that
@@ -345,23 +276,25 @@ typedef struct pp_settings {
     uint32_t reserved;
     // Relative gap of s^2 at which the solver may stop; in (0, 0.1], default 1e-12, a decade above what
     // rounding leaves for well-conditioned pairs. Where rounding leaves more, the answer has
-    // PP_FLAG_ROUNDING_LIMITED. Below 1e-13 the solver goes on in extended precision (some 10 us) until the gap
-    // is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
+    // PP_FLAG_ROUNDING_LIMITED. Below 1e-13 the solver goes on in extended precision (some
+    // 10 us) until the gap is what was asked for: 1e-14 gives s, and points, to the last digits of a double.
     double gap_tolerance;
-    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2, in [0, 1], default
-    // 0.5 (equal stiffness). Paper: relative stiffness of the particles.
+    // Weight of the point on A in the contact point of PP_CLOSEST: point = w*P1 + (1-w)*P2, in
+    // [0, 1], default 0.5 (equal stiffness). Paper: relative stiffness of the particles.
     double weight_on_a;
     // Where k is below this, the contact point on a flat face is chosen as if k were this value (about a sphere
     // of the bounding radius); shape, s and overlap stay those of the given k within the gap, which grows by at
     // most this value. In [0, 0.1], default 1e-13, the smallest whose pull on a flat face of unit size exceeds
     // rounding; smaller values count as 1e-13. For exactly parallel faces any value gives the point nearest to
     // the centres. Raise it to 1e-4, say, when points on flat faces jump from step to step. It never decides
-    // whether particles overlap: where it would, the default is used (PP_FLAG_DEFAULT_REGULARISATION).
+    // whether particles overlap: where it would, the default is used
+    // (PP_FLAG_DEFAULT_REGULARISATION).
     double flat_regularisation;
     // 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
-    // pair and not solved (PP_FLAG_CARRIED), where no plane can have switched and its point is known to this
-    // share of the smaller bounding radius; a separated pair, as long as s is surely above 1. In [0, 0.1]; 1e-9
-    // is a good choice. Needs a pp_pair_state; contacts of PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
+    // pair and not solved (PP_FLAG_CARRIED), where no plane can have switched and its point is
+    // known to this share of the smaller bounding radius; a separated pair, as long as s is surely above 1. In
+    // [0, 0.1]; 1e-9 is a good choice. Needs a struct pp_pair_state; contacts of
+    // PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     double carry_tolerance;
 } pp_settings;
 
@@ -1134,9 +1067,19 @@ const char *pp_version(void);
 // PP_ABI_VERSION of the loaded library.
 uint32_t pp_abi_version(void);
 
-// Size in bytes of a struct as the loaded library knows it (one of PP_STRUCT_...), to be compared with
-// sizeof; 0 for a number it does not know. For languages that write the structs down themselves.
-size_t pp_struct_size(uint32_t which);
+// Size in bytes of a struct as the loaded library knows it, by its name ("pp_contact"), to be compared with
+// sizeof; 0 for a name it does not know. For languages that write the structs down themselves.
+//
+// Pointers: name is NULL or a text that ends with a zero byte.
+size_t pp_struct_size(const char *name);
+
+// The fields of a struct, for languages that make it of them: for each a line with its name, numpy's format
+// of a number of it ("f8", "i4", "u4"), how many numbers it has, and its first byte. Known are pp_contact,
+// pp_contact_2d, pp_closest, pp_closest_2d, pp_flat_contact and pp_settings; NULL for another name. Static
+// text: do not free it.
+//
+// Pointers: name is NULL or a text that ends with a zero byte.
+const char *pp_struct_fields(const char *name);
 
 // Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 //

@@ -2,7 +2,7 @@
 //!
 //! `answer!` makes of one list of fields the struct, its equality, its form in files and its layout. Rust, C and
 //! numpy use the same bytes: `tests/header.rs` writes the struct of the C header from the same list, the wheel makes
-//! its record type and its attributes of `LAYOUT`.
+//! its record type and its attributes of `LAYOUT`, and C gives it to languages that do not read the header.
 
 use crate::flags::Flags;
 use nalgebra::SVector;
@@ -61,6 +61,23 @@ impl<const N: usize> Field for SVector<f64, N> {
     }
 }
 
+/// Of a field its name, numpy's name of a number of it, how many numbers it has, its first byte, and its comment.
+pub type Row = (&'static str, &'static str, usize, usize, &'static str);
+
+/// The row of a field.
+macro_rules! row {
+    ($field:ident: $type:ty, $($doc:literal)*) => {
+        (
+            stringify!($field),
+            <$type as $crate::answer::Field>::FORMAT,
+            <$type as $crate::answer::Field>::COUNT,
+            std::mem::offset_of!(Self, $field),
+            concat!($($doc, "\n"),*).trim_ascii(),
+        )
+    };
+}
+pub(crate) use row;
+
 /// Fields of four bytes that are equal where their numbers are.
 macro_rules! words {
     ($($word:ty, $format:literal, |$value:ident| $number:expr);+ $(;)?) => {
@@ -91,7 +108,7 @@ macro_rules! answer {
     (
         $(#[$meta:meta])*
         pub struct $name:ident $(<const $n:ident: usize = $default:literal>)? {
-            $($(#[$doc:meta])* $vis:vis $field:ident: $type:ty = $unknown:expr,)+
+            $($(#[doc = $doc:literal])* $vis:vis $field:ident: $type:ty = $unknown:expr,)+
         }
     ) => {
         $(#[$meta])*
@@ -101,7 +118,7 @@ macro_rules! answer {
         #[repr(C)]
         pub struct $name $(<const $n: usize = $default>)? {
             $(
-                $(#[$doc])*
+                $(#[doc = $doc])*
                 #[cfg_attr(feature = "serde", serde(with = "crate::serialisation::field"))]
                 $vis $field: $type,
             )+
@@ -111,13 +128,8 @@ macro_rules! answer {
             /// An answer of which nothing is known yet.
             pub const UNKNOWN: Self = Self { $($field: $unknown,)+ };
 
-            /// Every field: its name, numpy's name of a number of it, how many numbers it has, and its first byte.
-            pub const LAYOUT: &'static [(&'static str, &'static str, usize, usize)] = &[$((
-                stringify!($field),
-                <$type as $crate::answer::Field>::FORMAT,
-                <$type as $crate::answer::Field>::COUNT,
-                std::mem::offset_of!(Self, $field),
-            ),)+];
+            /// Every field.
+            pub const LAYOUT: &'static [$crate::answer::Row] = &[$($crate::answer::row!($field: $type, $($doc)*),)+];
 
             /// Writes the answer as the C interface and numpy's records have it: `size_of::<Self>()` bytes.
             ///
@@ -150,7 +162,6 @@ macro_rules! answer {
         /// What does not apply, NaN, counts as equal.
         impl $(<const $n: usize>)? PartialEq for $name $(<$n>)? {
             fn eq(&self, other: &Self) -> bool {
-                let () = Self::_FULL;
                 true $(&& $crate::answer::Field::same(&self.$field, &other.$field))+
             }
         }
@@ -160,8 +171,13 @@ pub(crate) use answer;
 
 /// The answer of the plane from that of space: vectors lose their z.
 macro_rules! in_plane {
-    ($name:ident [] $($field:ident)+) => {};
+    ($name:ident [] $($field:ident)+) => {
+        const _: () = $name::_FULL;
+    };
     ($name:ident [$n:ident] $($field:ident)+) => {
+        const _: () = $name::<3>::_FULL;
+        const _: () = $name::<2>::_FULL;
+
         impl $name<3> {
             /// The same without z.
             #[inline]

@@ -57,12 +57,12 @@ impl Flags {
     /// Both gradients vanish at the contact point, as when the centres coincide: no normal is right, and
     /// the one given is the line of centres, or the x axis of B.
     pub const NORMAL_BY_CENTRES: Self = Self(4);
-    /// Started from the solution that the pair remembers (struct pp_pair_state).
+    /// Started from the solution that the pair remembers ([`PairState`](crate::PairState)).
     pub const WARM: Self = Self(8);
     /// Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
     pub const EXTENDED: Self = Self(16);
     /// Carried on from the last contact, without a solution from the planes (carry_tolerance); with
-    /// PP_FLAG_REJECTED from where the pair was last solved apart.
+    /// [`Flags::REJECTED`] from where the pair was last solved apart.
     pub const CARRIED: Self = Self(32);
     /// The gap is above the tolerance asked for: rounding allows no better. It is still a bound.
     pub const ROUNDING_LIMITED: Self = Self(64);

@@ -104,6 +104,7 @@ pub use boundary::{
 /// Its vectors and matrices are those of this interface: of this version, whatever others a program has.
 pub use nalgebra;
 
+pub use answer::Row;
 pub use contact::batch::{detect_batch, detect_batch_into};
 pub use contact::closest_point::{ClosestPoint, closest_point};
 pub use contact::contact::{Contact, Kind};

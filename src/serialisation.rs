@@ -5,7 +5,8 @@
 //! file makes a particle, a pose or settings that the program could not. Numbers that do not apply (NaN) are written as
 //! nothing, since JSON has no NaN; an infinite number is lost in JSON in the same way.
 
-use crate::{BackEnd, Formulation, PairState, Particle, Plane, Pose, Settings};
+use crate::settings::Written;
+use crate::{PairState, Particle, Plane, Pose, Settings};
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize, Serializer};
 
@@ -74,53 +75,24 @@ through!(
     |twin| Pose::new(twin.position, twin.orientation).map_err(|error| error.to_string())
 );
 
-/// What is missing has its default.
-#[derive(Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-struct SettingsTwin {
-    formulation: Formulation,
-    back_end: BackEnd,
-    solve_separated: bool,
-    gap_tolerance: f64,
-    weight_on_a: f64,
-    flat_regularisation: f64,
-    carry_tolerance: f64,
-}
-
-impl Default for SettingsTwin {
-    fn default() -> Self {
-        Self::from(&Settings::default())
-    }
-}
-
-impl From<&Settings> for SettingsTwin {
-    fn from(settings: &Settings) -> Self {
-        Self {
-            formulation: settings.formulation,
-            back_end: settings.back_end,
-            solve_separated: settings.solve_separated(),
-            gap_tolerance: settings.gap_tolerance,
-            weight_on_a: settings.weight_on_a,
-            flat_regularisation: settings.flat_regularisation,
-            carry_tolerance: settings.carry_tolerance,
-        }
-    }
-}
-
-through!(Settings, SettingsTwin, |settings| settings.into(), |twin| {
-    let settings = Settings {
-        formulation: twin.formulation,
-        back_end: twin.back_end,
-        solve_separated: twin.solve_separated.into(),
-        reserved: 0,
-        gap_tolerance: twin.gap_tolerance,
-        weight_on_a: twin.weight_on_a,
-        flat_regularisation: twin.flat_regularisation,
-        carry_tolerance: twin.carry_tolerance,
-    };
+through!(Settings, Written, |settings| (*settings).into(), |written| {
+    let settings = Settings::from(written);
     settings.validate().map_err(|error| error.to_string())?;
     Ok(settings)
 });
+
+/// 0 or 1 as false or true.
+pub(crate) mod switch {
+    use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+    pub(crate) fn serialize<S: Serializer>(on: &u32, serializer: S) -> Result<S::Ok, S::Error> {
+        (*on != 0).serialize(serializer)
+    }
+
+    pub(crate) fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<u32, D::Error> {
+        bool::deserialize(deserializer).map(u32::from)
+    }
+}
 
 // Of a state its remembered solution alone: whatever the numbers are, it is a hint.
 through!(PairState, [Number; 8], |state| state.into_raw().map(Number), |raw| Ok(PairState::from_raw(raw.map(|n| n.0))));

@@ -25,6 +25,31 @@ fn source(file: &str) -> String {
     fs::read_to_string(root().join(file)).unwrap_or_else(|e| panic!("{file}: {e}"))
 }
 
+/// A comment of the library with the names of C in the place of its links.
+fn comment_in_c(line: &str) -> String {
+    let mut pieces = line.split("[`");
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (link, rest) = piece.split_once("`]").unwrap_or_else(|| panic!("no end of a link: {line}"));
+        text += &match link.split_once("::") {
+            Some(("Flags", flag)) => format!("PP_FLAG_{flag}"),
+            Some(("Role", body)) => format!("PP_ON_{body}"),
+            Some((_, variant)) => {
+                let apart = |c: char| if c.is_uppercase() { format!("_{c}") } else { c.to_uppercase().to_string() };
+                format!("PP{}", variant.chars().map(apart).collect::<String>())
+            }
+            None if link == "Flags" => "PP_FLAG_... bits".into(),
+            None if link == "Contact" => "struct pp_contact".into(),
+            None if link == "PairState" => "struct pp_pair_state".into(),
+            None if link == "PatchState" => "struct pp_patch_state".into(),
+            None => panic!("{link}: no name in C"),
+        };
+        // A path in Rust that follows a link.
+        text += rest.strip_prefix('(').and_then(|rest| rest.split_once(')')).map_or(rest, |(_, rest)| rest);
+    }
+    text
+}
+
 /// The structs of the library that C has as they are: file, struct, dimension, name in C.
 const STRUCTS: [(&str, &str, &str, &str); 10] = [
     ("src/settings.rs", "Settings", "3", "pp_settings"),
@@ -48,14 +73,15 @@ fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> Strin
         let rest = line.strip_prefix("pub struct ").and_then(|line| line.strip_prefix(name));
         rest.is_some_and(|rest| rest.starts_with([' ', '<']))
     };
-    let head = lines.iter().position(is_head).unwrap_or_else(|| panic!("{file} has no struct {name}"));
+    let head = lines.iter().rposition(is_head).unwrap_or_else(|| panic!("{file} has no struct {name}"));
     let docs = lines[..head].iter().rev().take_while(|line| is_doc(line)).count();
     let mut plain = String::from("#[repr(C)]\n");
     for line in &lines[head - docs..] {
         if is_head(line) {
             plain += &format!("pub struct {in_c} {{");
         } else if is_doc(line) {
-            plain += &if dimension == "2" { line.replace("the surface", "the boundary") } else { (*line).into() };
+            let line = comment_in_c(line);
+            plain += &if dimension == "2" { line.replace("the surface", "the boundary") } else { line };
         } else {
             // Without the value that an answer has while nothing is known.
             plain += &line.split_once(" = ").map_or_else(|| (*line).into(), |(field, _)| format!("{field},"));
@@ -85,7 +111,7 @@ fn flags_in_c((file, name, prefix): (&str, &str, &str)) -> String {
     let (mut constants, mut comment) = (String::new(), String::new());
     for line in lines.take_while(|line| !line.starts_with("const ")) {
         if line.starts_with("///") {
-            comment += &format!("{line}\n");
+            comment += &format!("{}\n", comment_in_c(line));
         } else if let Some((flag, bit)) =
             line.strip_prefix("pub const ").and_then(|rest| rest.split_once(": Self = Self"))
         {
@@ -180,19 +206,6 @@ fn version_macros_are_those_of_the_package() {
             env!("CARGO_PKG_VERSION"),
         );
     }
-}
-
-/// A library of another binary interface has another name: scripts/install.sh reads the number from the header,
-/// Debian's packages have it in theirs.
-#[test]
-fn packages_are_named_after_the_binary_interface() {
-    let header = generated();
-    let abi = header.lines().find_map(|line| line.strip_prefix("#define PP_ABI_VERSION ")).expect("a number");
-    let package = format!("libpotential-particles{abi}");
-    let control = fs::read_to_string(root().join("debian/control")).expect("debian/control is readable");
-    assert!(control.contains(&format!("Package: {package}\n")), "debian/control has no package {package}");
-    assert!(control.contains(&format!("Depends: {package} (= ")), "the development files need {package}");
-    assert!(root().join(format!("debian/{package}.install")).exists(), "debian/{package}.install is missing");
 }
 
 /// A C programmer reads the comments as they are.

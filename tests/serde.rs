@@ -27,21 +27,6 @@ fn cube() -> Particle {
     Particle::new(&planes, 0.1, 0.1, 1.2).expect("a cube")
 }
 
-/// With NaN where the original has NaN.
-fn numbers(contact: &Contact) -> Vec<u64> {
-    let scalars = [contact.s, contact.s_b, contact.weight, contact.gap, contact.point_bound];
-    let lengths = [contact.overlap, contact.distance];
-    let vectors = [contact.normal, contact.point, contact.branch_a, contact.branch_b];
-    let surface = [contact.point_on_a, contact.point_on_b];
-    let vectors = vectors.iter().chain(&surface).flat_map(|v| [v.x, v.y, v.z]);
-    scalars
-        .into_iter()
-        .chain(lengths)
-        .chain(vectors)
-        .map(|number| if number.is_nan() { f64::NAN } else { number }.to_bits())
-        .collect()
-}
-
 #[test]
 fn everything_comes_back() {
     let cube = cube();
@@ -61,9 +46,7 @@ fn everything_comes_back() {
         let contact = detect(&cube, &here, &cube, &there, &settings, Some(&mut state)).unwrap();
         assert_eq!(there_and_back(&state).into_raw(), state.into_raw());
         let back = there_and_back(&contact);
-        assert_eq!(numbers(&back), numbers(&contact));
-        assert_eq!((back.kind, back.formulation, back.back_end), (contact.kind, contact.formulation, contact.back_end));
-        assert_eq!((back.flags, back.iterations), (contact.flags, contact.iterations));
+        assert_eq!(back, contact);
         if contact.kind == Kind::Overlapping {
             let area = |contact: &Contact| Section::from(contact).area(&cube, &here, &cube, &there, 1e-6).unwrap();
             assert_eq!(area(&back), area(&contact));

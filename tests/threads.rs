@@ -16,18 +16,15 @@ struct Pair {
     pose_b: Pose,
 }
 
-/// Everything in an answer, as bits: NaN is then like NaN, and 0 not like -0.
-fn bits(contact: &Contact) -> Vec<u64> {
-    let numbers = [contact.s, contact.s_b, contact.weight, contact.gap, contact.point_bound, contact.overlap];
-    let vectors =
-        [contact.normal, contact.point, contact.branch_a, contact.branch_b, contact.point_on_a, contact.point_on_b];
-    let counts = [contact.kind as u64, contact.flags.bits().into(), contact.iterations.into()];
-    let numbers = numbers.into_iter().chain(vectors.iter().flat_map(|v| [v.x, v.y, v.z])).map(f64::to_bits);
-    counts.into_iter().chain(numbers).collect()
+/// Every byte of an answer: NaN is then like NaN, and 0 not like -0.
+fn bytes(contact: &Contact) -> Vec<u8> {
+    let mut bytes = vec![0; size_of::<Contact>()];
+    contact.put(&mut bytes);
+    bytes
 }
 
 /// Cold, then warm, in both formulations; the pairs in an order that begins at `first`.
-fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u64>> {
+fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u8>> {
     let mut found = vec![Vec::new(); pairs.len()];
     for index in (0..pairs.len()).map(|i| (i + first) % pairs.len()) {
         let Pair { a, b, pose_a, pose_b } = &pairs[index];
@@ -36,7 +33,7 @@ fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u64>> {
             let mut state = PairState::default();
             for _ in 0..2 {
                 let contact = detect(a, pose_a, b, pose_b, &settings, Some(&mut state)).expect("a pair with an answer");
-                found[index].extend(bits(&contact));
+                found[index].extend(bytes(&contact));
             }
         }
     }

@@ -17,7 +17,8 @@ from pathlib import Path
 import numpy as np
 
 import potential_particles as pp
-sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies"))
+sys.path[:0] = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("studies", "lammps-glue/python")]
+from potential_particles_lammps.library import record
 from summary import print_targets, target, write_summary
 
 TOP = Path(__file__).resolve().parents[2]
@@ -41,6 +42,13 @@ class Library:
         rows, made = np.array(planes, float), ctypes.c_void_p()
         assert self.library.pp_particle_new(rows.ctypes.data, len(rows), r, k, shadow, ctypes.byref(made), None, 0) == 0
         return made.value
+
+    def settings(self, carry):
+        """A struct pp_settings with this carry_tolerance."""
+        settings = record("pp_settings")
+        self.library.pp_settings_default(ctypes.c_void_p(settings.ctypes.data))
+        settings.carry_tolerance = carry
+        return settings
 
     def batch(self, particles, poses, pairs, settings, states, contacts, statuses):
         done = self.library.pp_contact_detect_batch(particles.ctypes.data, poses.ctypes.data, len(poses),
@@ -78,9 +86,7 @@ def batches(library):
     particles, cube = np.full(len(poses), own, np.uint64), pp.Particle(CUBE, 0.1, 0.01, 2.0)
     found = {}
     for name, carry in (("from the last solution", 0.0), ("carried on", 1e-9)):
-        # As struct pp_settings: four numbers of 32 bits, four doubles.
-        settings = np.zeros(1, [("choices", "4u4"), ("numbers", "4f8")])
-        settings["numbers"] = 1e-12, 0.5, 1e-13, carry
+        settings = library.settings(carry)
         states, contacts, statuses = np.zeros(
             (len(pairs), 48)), np.zeros(len(pairs), pp.contact_type), np.zeros(len(pairs), np.int32)
         batch = pp.Batch([cube] * len(poses), pp.Settings(carry_tolerance=carry))

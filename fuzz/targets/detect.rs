@@ -20,10 +20,7 @@ pub fn run(data: &[u8]) {
     }
     settings = settings.with_solve_separated(choices & 2 != 0);
     if choices & 4 != 0 {
-        settings.gap_tolerance = bytes.number();
-        settings.weight_on_a = bytes.number();
-        settings.flat_regularisation = bytes.number();
-        settings.carry_tolerance = bytes.number();
+        settings = Settings::NUMBERS.iter().fold(settings, |settings, (_, with)| with(settings, bytes.number()));
     }
     // Where S is beyond all numbers, the cone program is asked at length, in vain: a few such pairs are enough.
     let reach = a.bounding_radius() + b.bounding_radius();

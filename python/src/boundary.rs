@@ -61,11 +61,8 @@ impl PyTriangle {
 /// The answer for a particle A and a plane or triangle T, world frame, lengths in the caller's unit. What does not
 /// apply is NaN.
 ///
-/// s: the least s_A = sqrt(S_A) on T, at on_boundary; overlapping if it is below 1. gap, flags, iterations, kind: as of
-/// Contact. feature: where on T that is: ("interior", 0), ("edge", i) or ("vertex", i). overlap: from on_boundary along
-/// the normal to the surface of A, at on_particle, length. distance: of separated ones a lower bound, length. normal:
-/// unit, from A to T. point: halfway between both points; separated: on_boundary. point_bound: estimated distance of
-/// on_boundary to the exact one, length. branch: point minus the position of A.
+/// Each number has a docstring of its own. flags, iterations, kind, overlapping: as of Contact. feature: where on T
+/// s_A is least: ("interior", 0), ("edge", i) or ("vertex", i).
 #[pyclass(name = "FlatContact", module = "potential_particles", frozen)]
 pub struct PyFlatContact(pub FlatContact);
 

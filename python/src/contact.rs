@@ -42,16 +42,11 @@ impl PyPairState {
     }
 }
 
-/// The answer for one pair, world frame, lengths in the caller's unit. What does not apply is NaN.
+/// The answer for one pair, world frame, lengths in the caller's unit. What does not apply is NaN. Each number has a
+/// docstring of its own.
 ///
-/// kind: "separated" (s >= 1) or "overlapping", which `overlapping` tells, too. s: midway: the least t with s_A <= t
-/// and s_B <= t at one point, s = sqrt(S); closest: s_A at point_on_b, and s_b: s_B at point_on_a; of a pair that was
-/// rejected a proved lower bound, >= 1. gap: |s - s*| <= gap. weight: u in (1-u) grad S_A + u grad S_B = 0 at the
-/// solution. overlap: length, along the normal between the surfaces; closest: |point_on_a - point_on_b|. distance: of
-/// separated bodies a lower bound, length, 0 where none is known. normal: unit, from A to B. point: contact point;
-/// point_bound: estimated distance to the exact one, length. branch_a, branch_b: point minus the position of A, of B.
-/// point_on_a, point_on_b: on the surfaces, where they overlap. flags: names of what else is to be known. formulation:
-/// that which was answered. iterations: quadratics solved. record(): as a record of contact_type.
+/// kind: "separated" (s >= 1) or "overlapping", as a boolean `overlapping`. flags: names of what else is to be known.
+/// formulation: that which was answered. iterations: quadratics solved. record(): as a record of contact_type.
 #[pyclass(name = "Contact", module = "potential_particles", frozen)]
 pub struct PyContact(pub Contact);
 
@@ -94,17 +89,36 @@ pub(crate) use getters;
 /// Attributes of an answer of the library: the numbers and vectors that its layout lists.
 macro_rules! attributes {
     ($py:expr, $class:ident: $answer:ty) => {
-        for (name, ..) in <$answer>::LAYOUT.iter().filter(|(_, format, ..)| *format == "f8") {
-            $crate::contact::attribute::<$class>($py, name, |object| object.0.numbers(name))?;
+        for (name, .., doc) in <$answer>::LAYOUT.iter().filter(|(_, format, ..)| *format == "f8") {
+            let doc = $crate::contact::comment_in_python(doc);
+            $crate::contact::attribute::<$class>($py, (name, doc), |object| object.0.numbers(name))?;
         }
     };
 }
 pub(crate) use attributes;
 
-/// Adds one attribute to a class: a double, or an array of doubles.
+/// A comment of the library as a docstring: in the place of links the names of flags and of choices.
+pub fn comment_in_python(comment: &str) -> String {
+    let lines: Vec<_> = comment.lines().map(str::trim_start).collect();
+    let comment = lines.join("\n");
+    let mut pieces = comment.split("[`");
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (link, rest) = piece.split_once("`]").unwrap_or((piece, ""));
+        match link.split_once("::") {
+            Some((_, name)) => text += &format!("{:?}", name.to_lowercase().replace('_', " ")),
+            None => text += link,
+        }
+        // A path in Rust that follows a link.
+        text += rest.strip_prefix("(crate::").and_then(|rest| rest.split_once(')')).map_or(rest, |(_, rest)| rest);
+    }
+    text
+}
+
+/// Adds one attribute to a class, with its docstring: a double, or an array of doubles.
 pub fn attribute<T: PyClass<Frozen = True> + Sync>(
     py: Python<'_>,
-    name: &'static str,
+    (name, doc): (&'static str, String),
     numbers: impl Fn(&T) -> &[f64] + Send + Sync + 'static,
 ) -> PyResult<()> {
     let get = move |args: &Bound<'_, PyTuple>, _: Option<&Bound<'_, PyDict>>| {
@@ -115,7 +129,8 @@ pub fn attribute<T: PyClass<Frozen = True> + Sync>(
         }
     };
     let get = PyCFunction::new_closure(py, None, None, move |args, named| -> PyResult<Py<PyAny>> { get(args, named) })?;
-    py.get_type::<T>().setattr(name, py.import("builtins")?.call_method1("property", (get,))?)
+    let none = py.None();
+    py.get_type::<T>().setattr(name, py.import("builtins")?.call_method1("property", (get, &none, &none, doc))?)
 }
 
 /// Getters that the contacts of two particles, with a boundary and in the plane have in common.

@@ -3,7 +3,7 @@
 
 use bytemuck::{Pod, Zeroable};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
-use potential_particles::Contact;
+use potential_particles::{Contact, Row};
 use pyo3::prelude::*;
 use pyo3::sync::PyOnceLock;
 use pyo3::types::{PyDict, PyList};
@@ -36,21 +36,18 @@ pub fn put(answer: Option<&Contact>, record: &mut [u8]) {
     record[offset_of!(Contact, kind)..][..4].copy_from_slice(&FAILED.to_ne_bytes());
 }
 
-/// Name, numpy's format, how many, and place of each field.
-type Field = (&'static str, &'static str, usize, usize);
-
-const OF_POSE: &[Field] = &[
-    ("position", "f8", 3, offset_of!(PoseRecord, position)),
-    ("orientation", "f8", 4, offset_of!(PoseRecord, orientation)),
+const OF_POSE: &[Row] = &[
+    ("position", "f8", 3, offset_of!(PoseRecord, position), ""),
+    ("orientation", "f8", 4, offset_of!(PoseRecord, orientation), ""),
 ];
 
 static POSE_TYPE: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
 static CONTACT_TYPE: PyOnceLock<Py<PyAny>> = PyOnceLock::new();
 
-fn record_type(py: Python<'_>, fields: &[Field], size: usize) -> PyResult<Py<PyAny>> {
+fn record_type(py: Python<'_>, fields: &[Row], size: usize) -> PyResult<Py<PyAny>> {
     let layout = PyDict::new(py);
     layout.set_item("names", PyList::new(py, fields.iter().map(|field| field.0))?)?;
-    let format = |&(_, format, count, _): &Field| if count == 1 { format.into() } else { format!("{count}{format}") };
+    let format = |&(_, format, count, ..): &Row| if count == 1 { format.into() } else { format!("{count}{format}") };
     layout.set_item("formats", PyList::new(py, fields.iter().map(format))?)?;
     layout.set_item("offsets", PyList::new(py, fields.iter().map(|field| field.3))?)?;
     layout.set_item("itemsize", size)?;

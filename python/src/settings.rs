@@ -1,18 +1,16 @@
 //! `Settings`.
 
+use crate::contact::attributes;
 use crate::errors::refused;
 use potential_particles::{Formulation, Settings};
+use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 
 /// How to solve; immutable.
 ///
-/// formulation: "midway" or "closest". solve_separated: solve separated pairs to the end as well. gap_tolerance:
-/// relative gap of s^2 at which the solver may stop, in (0, 0.1]; below 1e-13 it goes on in extended precision.
-/// weight_on_a: of the point on A in the contact point of closest, in [0, 1]. flat_regularisation: sphericity below
-/// which the position on a flat face is regularised, in [0, 0.1]. carry_tolerance: to what part of the smaller bounding
-/// radius the point of a contact has to be known that is carried on from the last step, in [0, 0.1]; 0: every contact
-/// is solved. ValueError: a number out of range.
+/// formulation: "midway" or "closest". solve_separated: solve separated pairs to the end as well. The numbers are
+/// keywords, each with a docstring of its own. ValueError: a number out of range.
 #[pyclass(name = "Settings", module = "potential_particles", frozen, eq)]
 #[derive(PartialEq)]
 pub struct PySettings(pub Settings);
@@ -28,23 +26,20 @@ fn formulation(name: &str) -> PyResult<Formulation> {
 #[pymethods]
 impl PySettings {
     #[new]
-    #[pyo3(signature = (formulation="midway", *, solve_separated=false, gap_tolerance=1e-12, weight_on_a=0.5, flat_regularisation=1e-13,
-                        carry_tolerance=0.0))]
-    fn new(
-        formulation: &str,
-        solve_separated: bool,
-        gap_tolerance: f64,
-        weight_on_a: f64,
-        flat_regularisation: f64,
-        carry_tolerance: f64,
-    ) -> PyResult<Self> {
-        let settings = Settings::default()
+    #[pyo3(signature = (formulation="midway", *, solve_separated=false, **numbers))]
+    fn new(formulation: &str, solve_separated: bool, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
+        let mut settings = Settings::default()
             .with_formulation(self::formulation(formulation)?)
-            .with_solve_separated(solve_separated)
-            .with_gap_tolerance(gap_tolerance)
-            .with_weight_on_a(weight_on_a)
-            .with_flat_regularisation(flat_regularisation)
-            .with_carry_tolerance(carry_tolerance);
+            .with_solve_separated(solve_separated);
+        for (name, number) in numbers.into_iter().flatten() {
+            let name: String = name.extract()?;
+            let Some((_, with)) = Settings::NUMBERS.iter().find(|(known, _)| *known == name) else {
+                let known: String = Settings::NUMBERS.iter().map(|(known, _)| format!(", {known}")).collect();
+                let known = format!("formulation, solve_separated{known}");
+                return Err(PyTypeError::new_err(format!("Settings has no {name:?}; it has {known}")));
+            };
+            settings = with(settings, number.extract()?);
+        }
         settings.validate().map_err(refused)?;
         Ok(Self(settings))
     }
@@ -59,43 +54,19 @@ impl PySettings {
         self.0.solve_separated()
     }
 
-    #[getter]
-    fn gap_tolerance(&self) -> f64 {
-        self.0.gap_tolerance
-    }
-
-    #[getter]
-    fn weight_on_a(&self) -> f64 {
-        self.0.weight_on_a
-    }
-
-    #[getter]
-    fn flat_regularisation(&self) -> f64 {
-        self.0.flat_regularisation
-    }
-
-    #[getter]
-    fn carry_tolerance(&self) -> f64 {
-        self.0.carry_tolerance
-    }
-
     fn __repr__(&self) -> String {
-        let Settings { gap_tolerance, weight_on_a, flat_regularisation, carry_tolerance, .. } = self.0;
+        let number = |name: &str| self.0.numbers(name)[0];
+        let numbers = Settings::NUMBERS.iter().map(|(name, _)| format!(", {name}={:?}", number(name)));
         let solved = if self.0.solve_separated() { "True" } else { "False" };
-        format!(
-            "Settings({:?}, solve_separated={solved}, gap_tolerance={gap_tolerance:?}, weight_on_a={weight_on_a:?}, \
-             flat_regularisation={flat_regularisation:?}, carry_tolerance={carry_tolerance:?})",
-            self.formulation()
-        )
+        format!("Settings({:?}, solve_separated={solved}{})", self.formulation(), numbers.collect::<String>())
     }
 
     fn __getnewargs_ex__<'py>(&self, py: Python<'py>) -> PyResult<((String,), Bound<'py, PyDict>)> {
         let keywords = PyDict::new(py);
         keywords.set_item("solve_separated", self.0.solve_separated())?;
-        keywords.set_item("gap_tolerance", self.0.gap_tolerance)?;
-        keywords.set_item("weight_on_a", self.0.weight_on_a)?;
-        keywords.set_item("flat_regularisation", self.0.flat_regularisation)?;
-        keywords.set_item("carry_tolerance", self.0.carry_tolerance)?;
+        for (name, _) in Settings::NUMBERS {
+            keywords.set_item(name, self.0.numbers(name)[0])?;
+        }
         Ok(((self.formulation(),), keywords))
     }
 }
@@ -106,5 +77,7 @@ pub fn or_default(settings: Option<&PySettings>) -> Settings {
 }
 
 pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
-    module.add_class::<PySettings>()
+    module.add_class::<PySettings>()?;
+    attributes!(module.py(), PySettings: Settings);
+    Ok(())
 }

@@ -373,10 +373,13 @@ class Kept(unittest.TestCase):
         self.assertTrue(0.0 < contact.distance <= 1e-3, contact.distance)
 
     def test_classes_say_what_their_numbers_are(self):
-        """Each attribute of an answer stands in the docstring of its class."""
-        for one in (pp.Contact, pp.FlatContact, pp.Patch):
-            names = [name for name in dir(one) if not name.startswith("_")]
+        """Each attribute of an answer has a docstring, or stands in that of its class."""
+        for one in (pp.Contact, pp.FlatContact, pp.Patch, pp.Settings):
+            names = [name for name in dir(one) if not name.startswith("_") and not getattr(one, name).__doc__]
             self.assertEqual([name for name in names if re.search(rf"\b{name}\b", one.__doc__) is None], [])
+        self.assertIn("unit contact normal", pp.Contact.normal.__doc__.lower())
+        with self.assertRaisesRegex(TypeError, "it has formulation, solve_separated, gap_tolerance"):
+            pp.Settings(tolerance=1e-9)
 
     def test_bad_input_is_told_in_the_librarys_sentences(self):
         cases = [

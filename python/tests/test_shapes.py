@@ -250,6 +250,7 @@ class Package(unittest.TestCase):
     def test_stubs_name_what_is_there(self):
         folder = Path(pp.__file__).parent
         self.assertTrue((folder / "py.typed").is_file())
+        shared = {}
         for name, module in (("_core", pp._core), ("builders", builders), ("slicing", slicing), ("planar", planar),
                              ("equilibrium", equilibrium)):
             tree = ast.parse((folder / f"{name}.pyi").read_text())
@@ -260,10 +261,12 @@ class Package(unittest.TestCase):
                 elif isinstance(node, ast.AnnAssign):
                     told[node.target.id] = node
             there = {one for one in getattr(module, "__all__", dir(module)) if not one.startswith("_")}
+            shared.update((one, told.pop(one)) for one in list(told) if one.startswith("_"))
             self.assertEqual(set(told), there, name)
             for one, node in told.items():
                 if isinstance(node, ast.ClassDef) and one != "ContactError":
-                    members = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in node.body
+                    items = node.body + [item for base in node.bases for item in shared[base.id].body]
+                    members = {item.name if isinstance(item, ast.FunctionDef) else item.target.id for item in items
                                if isinstance(item, (ast.FunctionDef, ast.AnnAssign))}
                     found = {member for member in dir(getattr(module, one)) if not member.startswith("_")}
                     self.assertEqual({member

@@ -30,11 +30,11 @@ answer! {
     ///
     /// x* is the point of T where the scale s of A is least. A overlaps T if that scale is below 1.
     pub struct FlatContact {
-        /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+        /// [`Kind::Separated`] or [`Kind::Overlapping`]. A failed solve has no kind: it returns a status.
         pub kind: Kind = Kind::Separated,
         /// Where on T the point x* lies: PP_ON_INTERIOR, PP_ON_EDGE + i or PP_ON_VERTEX + i.
         pub feature: Feature = Feature::Interior,
-        /// Sum of PP_FLAG_... bits: REJECTED with BY_SPHERES, or with BY_FACE (of A, or T itself);
+        /// Sum of [`Flags`]: REJECTED with BY_SPHERES, or with BY_FACE (of A, or T itself);
         /// ROUNDING_LIMITED, EXTENDED, DEFAULT_REGULARISATION, NORMAL_BY_BOUNDARY.
         pub flags: Flags = Flags::NONE,
         /// Quadratics solved.
@@ -46,7 +46,7 @@ answer! {
         /// only; the place of the contact is then known to some percent of the size with the default, to 1e-6 of
         /// the size with 1e-4.
         pub s: f64 = f64::NAN,
-        /// Bound on the error of s, with rounding to first order in doubles (as in struct pp_contact).
+        /// Bound on the error of s, with rounding to first order in doubles (as in [`Contact`](crate::Contact)).
         pub gap: f64 = f64::NAN,
         /// Estimated bound on the distance of on_boundary to the exact x*, length.
         pub point_bound: f64 = f64::NAN,

@@ -13,16 +13,16 @@ use crate::solver::call::Call;
 use nalgebra::SVector;
 
 answer! {
-    /// One closest point alone; frames and units as in struct pp_contact.
+    /// One closest point alone; frames and units as in [`Contact`](crate::Contact).
     pub struct ClosestPoint<const N: usize = 3> {
-        /// 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
-        /// for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
+        /// 1 when there is no such point: for [`Role::A`] because the centre of B (for k = 0, its core) lies inside A,
+        /// for [`Role::B`] the reverse. The numbers below are NaN then. Else 0.
         pub(crate) slack: u32 = 1,
         /// Always 0.
         pub(crate) reserved: u32 = 0,
         /// Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
         pub s: f64 = f64::NAN,
-        /// Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
+        /// Bound on the error of s: |s - s*| <= gap (as in [`Contact`](crate::Contact)).
         pub gap: f64 = f64::NAN,
         /// Estimated bound on the distance of the point to the exact optimum, length.
         pub point_bound: f64 = f64::NAN,

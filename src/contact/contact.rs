@@ -34,13 +34,13 @@ answer! {
     /// unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields that do not
     /// apply are NaN.
     pub struct Contact<const N: usize = 3> {
-        /// PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
+        /// [`Kind::Separated`] or [`Kind::Overlapping`]. A failed solve has no kind: it returns a status.
         pub kind: Kind = Kind::Separated,
-        /// The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
+        /// The formulation that the geometry below answers ([`Formulation::Midway`] if [`Flags::SLACK`] is set).
         pub formulation: Formulation = Formulation::Midway,
-        /// The back end that answered: PP_FAST or PP_CONE_PROGRAM.
+        /// The back end that answered: [`BackEnd::Fast`] or [`BackEnd::ConeProgram`].
         pub back_end: BackEnd = BackEnd::Fast,
-        /// Sum of PP_FLAG_... bits.
+        /// Sum of [`Flags`].
         pub flags: Flags = Flags::NONE,
         /// Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the cone-program
         /// back end.
@@ -55,7 +55,7 @@ answer! {
         /// Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
         pub weight: f64 = f64::NAN,
         /// Bound on the error of s, and of s_b: |s - s*| <= gap. Proved for answers in extended precision
-        /// (PP_FLAG_EXTENDED); in doubles rounding is counted to first order, so that it is an estimate
+        /// ([`Flags::EXTENDED`]); in doubles rounding is counted to first order, so that it is an estimate
         /// (docs/theory.md).
         pub gap: f64 = f64::NAN,
         /// Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,

@@ -96,8 +96,8 @@ impl PatchFlags {
     pub const DEEP: Self = Self(4);
     /// No patch was found around the contact point, and force and area are 0: an overlap within rounding.
     pub const EMPTY: Self = Self(8);
-    /// The patch follows from that of an earlier pose by its stiffness (struct pp_patch_state): it has no points,
-    /// and area and moments are those of that pose.
+    /// The patch follows from that of an earlier pose by its stiffness ([`PatchState`](crate::PatchState)): it has no
+    /// points, and area and moments are those of that pose.
     pub const CARRIED: Self = Self(16);
 
     const NAMES: [(Self, &'static str); 5] = [

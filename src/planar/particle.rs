@@ -120,8 +120,8 @@ impl Particle {
     }
 
     /// Area, centroid and second moments: in closed form, arc by arc of the boundary. The relative tolerance counts
-    /// where rounding leaves more than that (lines far stiffer than the rest of the boundary): there a polygon of points
-    /// on rays answers.
+    /// where rounding leaves more than that (lines far stiffer than the rest of the boundary): there a polygon of
+    /// points on rays answers.
     ///
     /// # Errors
     /// A tolerance outside [1e-12, 1].

@@ -1,10 +1,10 @@
 //! Area and moments of a particle's cut by a plane through its origin, in closed form: each arc of the boundary adds
 //! the triangle of its chord and the origin, and the segment between chord and arc.
 //!
-//! With m the middle of the chord, c half of it, and e from m to the pole, a point of the segment is m + x c + y e. In x
-//! and y the segment lies between y = 0 and the conic x² + z y² + 2y = 1, z the square of the tangent of half the angle
-//! that the arc spans on its circle. With A its area there, integrating the divergence of (x q, 0), (0, q) and (0, y q),
-//! q = 1 − x² − z y² − 2y, over it gives
+//! With m the middle of the chord, c half of it, and e from m to the pole, a point of the segment is m + x c + y e. In
+//! x and y the segment lies between y = 0 and the conic x² + z y² + 2y = 1, z the square of the tangent of half the
+//! angle that the arc spans on its circle. With A its area there, integrating the divergence of (x q, 0), (0, q) and
+//! (0, y q), q = 1 − x² − z y² − 2y, over it gives
 //!
 //! ```text
 //! ∫y = (2/3 − A)/z      ∫x² = (A − ∫y)/4      ∫y² = (A − 5∫y)/(4z)

@@ -16,37 +16,6 @@ static void layout_is_as_written_down(void) {
     CHECK(sizeof(pp_pose_2d) == 24);
     CHECK(offsetof(pp_pose_2d, position) == 0);
     CHECK(offsetof(pp_pose_2d, angle) == 16);
-
-    CHECK(sizeof(pp_contact_2d) == 176);
-    CHECK(offsetof(pp_contact_2d, kind) == 0);
-    CHECK(offsetof(pp_contact_2d, formulation) == 4);
-    CHECK(offsetof(pp_contact_2d, back_end) == 8);
-    CHECK(offsetof(pp_contact_2d, flags) == 12);
-    CHECK(offsetof(pp_contact_2d, iterations) == 16);
-    CHECK(offsetof(pp_contact_2d, reserved) == 20);
-    CHECK(offsetof(pp_contact_2d, s) == 24);
-    CHECK(offsetof(pp_contact_2d, s_b) == 32);
-    CHECK(offsetof(pp_contact_2d, weight) == 40);
-    CHECK(offsetof(pp_contact_2d, gap) == 48);
-    CHECK(offsetof(pp_contact_2d, point_bound) == 56);
-    CHECK(offsetof(pp_contact_2d, overlap) == 64);
-    CHECK(offsetof(pp_contact_2d, normal) == 72);
-    CHECK(offsetof(pp_contact_2d, point) == 88);
-    CHECK(offsetof(pp_contact_2d, branch_a) == 104);
-    CHECK(offsetof(pp_contact_2d, branch_b) == 120);
-    CHECK(offsetof(pp_contact_2d, point_on_a) == 136);
-    CHECK(offsetof(pp_contact_2d, point_on_b) == 152);
-    CHECK(offsetof(pp_contact_2d, distance) == 168);
-
-    CHECK(sizeof(pp_closest_2d) == 80);
-    CHECK(offsetof(pp_closest_2d, slack) == 0);
-    CHECK(offsetof(pp_closest_2d, reserved) == 4);
-    CHECK(offsetof(pp_closest_2d, s) == 8);
-    CHECK(offsetof(pp_closest_2d, gap) == 16);
-    CHECK(offsetof(pp_closest_2d, point_bound) == 24);
-    CHECK(offsetof(pp_closest_2d, point) == 32);
-    CHECK(offsetof(pp_closest_2d, branch_a) == 48);
-    CHECK(offsetof(pp_closest_2d, branch_b) == 64);
 }
 
 /* A square that is accepted; each refusal spoils one thing in it. */

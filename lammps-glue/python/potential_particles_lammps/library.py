@@ -17,19 +17,19 @@ class Pose(ctypes.Structure):
     _fields_ = [("position", ctypes.c_double * 3), ("orientation", ctypes.c_double * 4)]
 
 
-class Contact(ctypes.Structure):
-    _fields_ = ([("kind", ctypes.c_int32)]
-                + [(name, ctypes.c_uint32) for name in ("formulation", "back_end", "flags", "iterations", "reserved")]
-                + [(name, ctypes.c_double) for name in ("s", "s_b", "weight", "gap", "point_bound", "overlap")]
-                + [(name, ctypes.c_double * 3)
-                   for name in ("normal", "point", "branch_a", "branch_b", "point_on_a", "point_on_b")]
-                + [("distance", ctypes.c_double)])
+@lru_cache(maxsize=None)
+def record_type(name):
+    """The numpy type of a struct whose fields the library tells, such as "pp_contact"."""
+    rows = [row.split() for row in library().pp_struct_fields(name.encode()).decode().splitlines()]
+    sizes = [(field, kind if count == "1" else f"{count}{kind}", int(place)) for field, kind, count, place in rows]
+    names, formats, offsets = zip(*sizes)
+    return np.dtype({"names": names, "formats": formats, "offsets": offsets,
+                     "itemsize": library().pp_struct_size(name.encode())})
 
 
-class FlatContact(ctypes.Structure):
-    _fields_ = ([("kind", ctypes.c_int32)] + [(name, ctypes.c_uint32) for name in ("feature", "flags", "iterations")]
-                + [(name, ctypes.c_double) for name in ("s", "gap", "point_bound", "overlap", "distance")]
-                + [(name, ctypes.c_double * 3) for name in ("normal", "point", "branch", "on_boundary", "on_particle")])
+def record(name):
+    """An array of one struct of zeros, whose fields are attributes."""
+    return np.zeros(1, record_type(name)).view(np.recarray)
 
 
 class MassProperties(ctypes.Structure):
@@ -49,7 +49,8 @@ def library():
     if loaded.pp_abi_version() != ABI_VERSION:
         raise ImportError(
             f"{path} has interface {loaded.pp_abi_version()}, this module needs {ABI_VERSION}: build the library anew")
-    loaded.pp_status_message.restype = ctypes.c_char_p
+    loaded.pp_status_message.restype = loaded.pp_struct_fields.restype = ctypes.c_char_p
+    loaded.pp_struct_size.restype = ctypes.c_size_t
     loaded.pp_particle_new.argtypes = [
         ctypes.c_void_p, ctypes.c_size_t, ctypes.c_double, ctypes.c_double, ctypes.c_double, ctypes.c_void_p,
         ctypes.c_char_p, ctypes.c_size_t
@@ -113,17 +114,17 @@ def pose(position, orientation):
 
 
 def detect(a, pose_a, b, pose_b):
-    """The Contact of two particles, with default settings and no memory."""
-    contact = Contact()
+    """The contact of two particles, with default settings and no memory: a record with the fields of pp_contact."""
+    contact = record("pp_contact")
     check(library().pp_contact_detect(a.handle, ctypes.byref(pose_a), b.handle, ctypes.byref(pose_b), None, None,
-                                      ctypes.byref(contact)))
-    return contact
+                                      contact.ctypes.data))
+    return contact[0]
 
 
 def detect_plane(a, pose_a, point, normal):
-    """The FlatContact of a particle with a plane."""
-    contact = FlatContact()
+    """The contact of a particle with a plane: a record with the fields of pp_flat_contact."""
+    contact = record("pp_flat_contact")
     three = ctypes.c_double * 3
     check(library().pp_contact_plane(a.handle, ctypes.byref(pose_a), three(*point), three(*normal), None, None,
-                                     ctypes.byref(contact)))
-    return contact
+                                     contact.ctypes.data))
+    return contact[0]

@@ -40,6 +40,7 @@ struct ContactSettings {
     // and what it may be.
     pp_settings parsed() const;
 
+    // As of registration/attributes.hpp: a last number is the version of the class from which archives have it.
     template <class Visit> static void eachAttribute(Visit&& visit)
     {
         using S = ContactSettings;
@@ -58,12 +59,12 @@ struct ContactSettings {
         visit("carryTolerance", &S::carryTolerance,
               "To what part of the smaller particle's size the point of a contact has to be known that is carried on "
               "from the "
-              "last step without a solution from the planes; 0: every contact is solved in every step.");
+              "last step without a solution from the planes; 0: every contact is solved in every step.", 1);
         visit("patch", &S::patch,
               "Whether the contact patch decides: contactPoint is then its centre of pressure, normal the direction of "
               "the force of its "
-              "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.");
-        visit("patchTolerance", &S::patchTolerance, "Relative error allowed in the patch's force and area.");
+              "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.", 2);
+        visit("patchTolerance", &S::patchTolerance, "Relative error allowed in the patch's force and area.", 2);
         visit("calContactArea", &S::calContactArea,
               "Whether KnKsPhys.contactArea is computed; otherwise it is 1 (with twoDimension: unitWidth2D).");
         visit("areaTolerance", &S::areaTolerance, "Relative error allowed in the contact area.");
@@ -79,11 +80,11 @@ struct ContactSettings {
         visit("interactionDistance", &S::interactionDistance,
               "Particles whose gap along the normal is at most this interact, with penetrationDepth = -gap: for laws "
               "that hold them together. The collider "
-              "must see such pairs (verletDist of half of it, with BoundWatch).");
+              "must see such pairs (verletDist of half of it, with BoundWatch).", 3);
         visit("rotations", &S::rotations,
               "Whether the geometry is YADE's ScGeom6D, with bending and twist, for laws that ask for it "
               "(Law2_ScGeom6D_...); penetrationDepth "
-              "is then -gap of particles that have come apart. Pairs are solved from nothing in each step.");
+              "is then -gap of particles that have come apart. Pairs are solved from nothing in each step.", 3);
     }
 };
 

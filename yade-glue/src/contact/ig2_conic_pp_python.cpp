@@ -52,7 +52,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pySetAttr(const std::string& key, const py::obj
 {
     try {
         bool own = false;
-        ContactSettings::eachAttribute([&](const char* name, auto member, const char*) {
+        ContactSettings::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) {
             if (key != name)
                 return;
             written.*member = py::extract<typename Pointed<decltype(member)>::type>(value)();
@@ -70,8 +70,9 @@ void Ig2_ConicPP_ConicPP_ScGeom::pySetAttr(const std::string& key, const py::obj
 py::dict Ig2_ConicPP_ConicPP_ScGeom::pyDict() const
 {
     py::dict attributes;
-    ContactSettings::eachAttribute(
-        [&](const char* name, auto member, const char*) { attributes[name] = py::object(written.*member); });
+    ContactSettings::eachAttribute([&](const char* name, auto member, const char*, unsigned = 0) {
+        attributes[name] = py::object(written.*member);
+    });
     attributes.update(pyDictCustom());
     attributes.update(IGeomFunctor::pyDict());
     return attributes;
@@ -85,7 +86,7 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
     using Functor = Ig2_ConicPP_ConicPP_ScGeom;
     auto registered = registerClass<Functor, yade::IGeomFunctor>();
 
-    ContactSettings::eachAttribute([&](const char* name, auto member, const char* attributeDoc) {
+    ContactSettings::eachAttribute([&](const char* name, auto member, const char* attributeDoc, unsigned = 0) {
         using Value = typename Pointed<decltype(member)>::type;
         registered.add_property(name,
                                 pythonFunction<Value, const Functor&>(
@@ -204,14 +205,9 @@ template <class Archive> void Ig2_ConicPP_ConicPP_ScGeom::serialize(Archive& arc
 {
     requireReadable<Ig2_ConicPP_ConicPP_ScGeom>(version);
     serializeBase<yade::IGeomFunctor>(archive, *this, "IGeomFunctor");
-    ContactSettings::eachAttribute([&](const char* attribute, auto member, const char*) {
-        const std::string name(attribute);
-        const unsigned since = name == "interactionDistance" || name == "rotations" ? 3
-            : name == "patch" || name == "patchTolerance"                           ? 2
-            : name == "carryTolerance"                                              ? 1
-                                                                                    : 0;
+    ContactSettings::eachAttribute([&](const char* name, auto member, const char*, unsigned since = 0) {
         if (version >= since)
-            archiveAttribute(archive, attribute, written.*member);
+            archiveAttribute(archive, name, written.*member);
     });
     if (Archive::is_loading::value) {
         if (written.backEnd == "conic") // the name of files saved before it was changed
