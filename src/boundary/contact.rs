@@ -247,7 +247,7 @@ impl Call<'_> {
         let (particle, rotation) = (self.particle, self.pose.rotation());
         let from = rotation.tr_mul(&(found.least.rotation * found.least.from_centre()));
         let outwards = rotation.tr_mul(normal);
-        let line = potential::on_line(particle, particle.sphere_weight, &from, &outwards);
+        let line = potential::on_line(particle, &particle.weights(), &from, &outwards);
         let guess = ray_cast::root_of_piece(line.value - 1.0, line.slope, line.curvature);
         let shift = shift_in_a(from.norm(), found.least.lengths);
         let near = ray_cast::distance_near(particle, &from, &outwards, guess);

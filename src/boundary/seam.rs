@@ -60,7 +60,7 @@ pub fn onwards_from_seam(
             (x, doubt, [third; 2], [own[i], own[(i + 1) % 3]])
         }
     };
-    let here = potential::turned(a, body.sphere_weight(), |n| n, &x, 0.0, |_, excess| excess > 0.0);
+    let here = potential::turned(a, body.weights(), |n| n, &x, 0.0, |_, excess| excess > 0.0);
     let steep = here.gradient.norm();
     // On the way to the exact point no plane may switch, and the slopes change by no more than the curvature allows.
     let is_one_quadratic = doubt * a.bounds.longest_normal < here.clear || doubt == 0.0;
@@ -99,18 +99,18 @@ pub fn onwards_from_seam(
 
 /// The least S between two points, and a bound on the way to it; none where it lies at one of them or is not found.
 fn least_on_edge(body: &Body, from: &Vector3<f64>, to: &Vector3<f64>, share: &mut f64) -> Option<(Vector3<f64>, f64)> {
-    let (particle, weight) = (body.particle, body.sphere_weight());
+    let (particle, weights) = (body.particle, body.weights());
     let along = to - from;
     let length = along.norm();
     let unit = along / length;
     let mut way = *share * length;
     for _ in 0..STEPS {
         let x = from + way * unit;
-        let line = potential::on_line(particle, weight, &x, &unit);
+        let line = potential::on_line(particle, weights, &x, &unit);
         let step = line.slope / line.curvature;
         // The slope and its rounding: that of the place, times the curvature of the terms of S.
         let rounding = 64.0 * f64::EPSILON * (x.norm() + length) * line.curvature;
-        let doubt = (line.slope.abs() + rounding) / (2.0 * weight);
+        let doubt = (line.slope.abs() + rounding) / (2.0 * weights.sphere);
         if step.abs() <= 1e-13 * (particle.bounding_radius() + length) || !step.is_finite() {
             *share = way / length;
             return (way > doubt && length - way > doubt).then_some((x, doubt));

@@ -42,7 +42,7 @@ impl KnownPiece {
         let longest = particle.bounds.longest_normal;
         // No plane that was active is further off than this.
         let early = longest * way.norm() + point.blur;
-        let q = potential::turned(particle, particle.sphere_weight, |n| n, &point.y, early, is_active);
+        let q = potential::turned(particle, &particle.weights(), |n| n, &point.y, early, is_active);
         let reach = smaller((q.clear - MORE_ROUNDING * point.blur) / longest, point.y.norm());
         let piece = Self { from: point.y, value: q.value, gradient: q.gradient, hessian: q.hessian, reach };
         (same.get() && reach > 0.0).then(|| (piece, body.rounding(&point, &q)))

@@ -10,6 +10,7 @@ use crate::pair::body::shift_in_a;
 use crate::pair::extended_body;
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
+use crate::particle::potential::{Sums, Weights};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
@@ -18,9 +19,8 @@ pub(super) struct Potential<'a, N: Single = f64> {
     pub particle: &'a Particle,
     /// Local to world.
     rotation: Matrix3<N>,
-    plane_weight: N,
-    /// Weight of the shadow sphere that the solver used.
-    pub sphere_weight: N,
+    /// The weights that the solver used.
+    pub weights: Weights<N>,
 }
 
 /// A point, seen from the centre of a body.
@@ -85,33 +85,22 @@ pub(super) struct Field<N> {
     pub sloped: bool,
 }
 
-/// The least sphericity as a weight of the particle's sphere.
-fn regularised(particle: &Particle, least_sphericity: f64) -> f64 {
-    least_sphericity / particle.bounding_radius().powi(2)
-}
-
 impl<'a> Potential<'a> {
     #[inline(always)]
     pub fn new((particle, pose): (&'a Particle, &Pose), least_sphericity: f64) -> Self {
-        Self {
-            particle,
-            rotation: *pose.rotation(),
-            plane_weight: particle.plane_weight,
-            sphere_weight: particle.sphere_weight.max(regularised(particle, least_sphericity)),
-        }
+        Self { particle, rotation: *pose.rotation(), weights: Weights::of(particle, least_sphericity) }
     }
 }
 
 impl<'a> Potential<'a, DoubleDouble> {
     /// The same with the digits of the pose and the weights as they were given.
     pub fn precise((particle, pose): (&'a Particle, &Pose), least_sphericity: f64) -> Self {
-        let (plane_weight, own) = extended_body::weights(particle);
-        let least = regularised(particle, least_sphericity);
+        let (own, sphere) = (Weights::precise(particle), Weights::of(particle, least_sphericity).sphere);
+        let is_regularised = sphere > particle.sphere_weight;
         Self {
             particle,
             rotation: Matrix3::from_columns(&extended_body::axes(pose)),
-            plane_weight,
-            sphere_weight: if particle.sphere_weight >= least { own } else { DoubleDouble::from(least) },
+            weights: if is_regularised { Weights { sphere: DoubleDouble::from(sphere), ..own } } else { own },
         }
     }
 }
@@ -240,30 +229,20 @@ impl<'a, N: Single> Place<'a, N> {
         let (first, second, normal) = (axis(0), axis(1), axis(2));
         let turn = |v: &Vector3<N>| Vector3::new(dot3(&first, v), dot3(&second, v), dot3(&normal, v));
         let y = self.local();
-        let (mut square, mut pull, mut count) = (N::of(0.0), N::of(0.0), 0.0);
-        let mut g = Vector3::zeros();
-        let mut squares = Symmetric::default();
+        let (mut sums, mut squares) = (Sums::default(), Symmetric::default());
         let clear = self.visit_active(&y, |_, n, depth| {
-            square += depth * depth;
-            pull += depth;
-            count += 1.0;
-            g += n * depth;
+            sums.add(&n, depth);
             squares.add_square(&turn(&n));
         });
-        let (w, m) = (self.body.plane_weight, self.body.sphere_weight);
-        let two = N::of(2.0);
-        let mut hessian = squares.weighted(two * w, &Symmetric::default(), N::of(0.0));
-        for entry in [&mut hessian.xx, &mut hessian.yy, &mut hessian.zz] {
-            *entry += two * m;
-        }
+        let (weights, count) = (&self.body.weights, f64::from(sums.count));
         let bounds = &self.body.particle.bounds;
         let length = self.branch.map(N::approximate).norm();
         let is_told = clear > N::UNIT / f64::EPSILON * 2.0 * rounding_in_doubles(self.body.particle, length);
-        let lost = count * bounds.longest_normal * self.rounding / pull.approximate();
+        let lost = count * bounds.longest_normal * self.rounding / sums.depth.approximate();
         Field {
-            value: w * square + m * self.branch.dot(&self.branch),
-            gradient: turn(&(g * (two * w) + y * (two * m))),
-            hessian,
+            value: weights.value(&sums, &self.branch),
+            gradient: turn(&weights.gradient(&sums.linear, &y)),
+            hessian: weights.hessian(&squares),
             clear: is_told && clear > bounds.longest_normal * self.error,
             lost: match count {
                 _ if !is_told => f64::INFINITY,
@@ -278,23 +257,19 @@ impl<'a, N: Single> Place<'a, N> {
     #[inline(always)]
     pub fn tangent(&self) -> (N, Vector3<N>) {
         let y = self.local();
-        let (mut square, mut g) = (N::of(0.0), Vector3::zeros());
-        self.visit_active(&y, |_, n, depth| {
-            square += depth * depth;
-            g += n * depth;
-        });
-        let own = self.body.particle.sphere_weight;
+        let mut sums = Sums::default();
+        self.visit_active(&y, |_, n, depth| sums.add(&n, depth));
+        let (own, used) = (self.body.particle.sphere_weight, self.body.weights);
         // The sphere of a regularised particle is its own to a double, which is enough of it.
-        let m = if self.body.sphere_weight.approximate() > own { N::of(own) } else { self.body.sphere_weight };
-        let w = self.body.plane_weight;
-        (w * square + m * dot3(&y, &y), times(&self.body.rotation, &((g * w + y * m) * N::of(2.0))))
+        let weights = if used.sphere.approximate() > own { Weights { sphere: N::of(own), ..used } } else { used };
+        (weights.value(&sums, &y), times(&self.body.rotation, &weights.gradient(&sums.linear, &y)))
     }
 
     /// Adds the derivative of σ·S + Γ·∇S at the point, Γ in world axes, in the shape.
     pub fn add_to_shape(&self, sigma: N, gamma: &Vector3<N>, sum: &mut ShapeGradient) {
         let shape = self.body.particle;
         let (y, gamma) = (self.local(), self.body.rotation.tr_mul(gamma));
-        let w2 = N::of(2.0) * self.body.plane_weight;
+        let w2 = self.body.weights.twice().plane;
         let mut of_weight = N::of(0.0);
         let mut add = |place: usize, n: Vector3<N>, depth: N| {
             let turned = gamma.dot(&n);

@@ -180,8 +180,8 @@ impl<N: Single> Local<N> {
             let weight = |i: usize| places[i].as_ref().map_or(N::of(0.0), |place| self.weights[i] * of(place.body));
             N::of(2.0) * (weight(0) + weight(1))
         };
-        let least = least.larger(weighted(|body| body.sphere_weight));
-        let added = weighted(|body| body.sphere_weight - N::of(body.particle.sphere_weight)).approximate();
+        let least = least.larger(weighted(|body| body.weights.sphere));
+        let added = weighted(|body| body.weights.sphere - N::of(body.particle.sphere_weight)).approximate();
         if !(least.is_positive() && least.is_finite()) {
             return Err(DerivativeError::NoCurvature);
         }

@@ -37,6 +37,19 @@ impl<N: Number> Symmetric<N> {
         }
     }
 
+    /// factor·self + diagonal·1.
+    #[inline]
+    pub(crate) fn scaled(&self, factor: N, diagonal: N) -> Self {
+        Self {
+            xx: factor * self.xx + diagonal,
+            yx: factor * self.yx,
+            yy: factor * self.yy + diagonal,
+            zx: factor * self.zx,
+            zy: factor * self.zy,
+            zz: factor * self.zz + diagonal,
+        }
+    }
+
     /// self += n nᵀ.
     #[inline]
     pub(crate) fn add_square(&mut self, n: &Vector3<N>) {
@@ -93,19 +106,6 @@ impl Symmetric {
             zx: entry(&z, 0),
             zy: entry(&z, 1),
             zz: entry(&z, 2),
-        }
-    }
-
-    /// factor·self + diagonal·1.
-    #[inline]
-    pub(crate) fn scaled(&self, factor: f64, diagonal: f64) -> Self {
-        Self {
-            xx: factor * self.xx + diagonal,
-            yx: factor * self.yx,
-            yy: factor * self.yy + diagonal,
-            zx: factor * self.zx,
-            zy: factor * self.zy,
-            zz: factor * self.zz + diagonal,
         }
     }
 

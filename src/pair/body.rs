@@ -5,7 +5,7 @@ use crate::linalg::symmetric::Symmetric;
 use crate::pair::local_point::LocalPoint;
 use crate::pair::pair::Pair;
 use crate::particle::particle::Particle;
-use crate::particle::potential::{self, OnLine, Quadratic};
+use crate::particle::potential::{self, OnLine, Quadratic, Weights};
 use nalgebra::{Matrix3, Vector3};
 
 /// A particle with its pose in the solver's frame (local axes of B, origin at the centre of B).
@@ -22,8 +22,8 @@ pub(crate) struct Body<'a> {
     of_centre: f64,
     /// Bound on the rounding of a point, relative to its distance from the centre and that length.
     rounding: f64,
-    /// Weight of the shadow sphere that the solver uses: the particle's own, or the regularised one.
-    sphere_weight: f64,
+    /// The weights that the solver uses: the particle's own, or regularised ones.
+    weights: Weights,
 }
 
 /// Bounds, in units of ε·length, on the rounding of a point as a body sees it and of n·y in n·y − d: in the axes of B,
@@ -54,7 +54,7 @@ impl<'a> Body<'a> {
             centre,
             of_centre: OF_CENTRE * lengths,
             rounding: f64::EPSILON * if is_rotated { IN_A } else { IN_B },
-            sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
+            weights: Weights::of(particle, least_sphericity),
         };
         (
             body(pair.a, pair.rotation, true, pair.centre, pair.lengths()),
@@ -71,7 +71,7 @@ impl<'a> Body<'a> {
             centre: Vector3::zeros(),
             of_centre: 0.0,
             rounding: f64::EPSILON * IN_B,
-            sphere_weight: larger(particle.sphere_weight, least_sphericity / particle.bounding_radius().powi(2)),
+            weights: Weights::of(particle, least_sphericity),
         }
     }
 
@@ -151,12 +151,12 @@ impl<'a> Body<'a> {
     #[inline(always)]
     fn quadratic(&self, point: &LocalPoint, turn: impl Fn(Vector3<f64>) -> Vector3<f64>) -> Quadratic {
         let active = |place, excess| point.is_active(place, excess);
-        potential::turned(self.particle, self.sphere_weight, turn, &point.y, point.blur, active)
+        potential::turned(self.particle, &self.weights, turn, &point.y, point.blur, active)
     }
 
     /// (Regularised) S at x along the direction e.
     pub fn on_line(&self, x: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
-        potential::on_line(self.particle, self.sphere_weight, &self.local(x), &self.turn(e))
+        potential::on_line(self.particle, &self.weights, &self.local(x), &self.turn(e))
     }
 
     /// (Regularised) S at x.
@@ -167,7 +167,7 @@ impl<'a> Body<'a> {
     /// Whether S is the particle's own, not regularised.
     #[inline]
     pub fn is_plain(&self) -> bool {
-        self.sphere_weight == self.particle.sphere_weight
+        self.weights.sphere == self.particle.sphere_weight
     }
 
     /// Calls `visit` with the (solver frame) normal of each active plane.
@@ -191,7 +191,7 @@ impl<'a> Body<'a> {
     /// may be active by two.
     #[inline]
     pub fn second_order(&self, planes: f64, shift: f64, blur: f64) -> f64 {
-        4.0 * planes * self.plane_weight() * blur * blur + self.sphere_weight * shift * shift
+        4.0 * planes * self.plane_weight() * blur * blur + self.weights.sphere * shift * shift
     }
 
     /// Bound on the rounding of a value of S that is summed up over so many planes: γ with n = count + 8.
@@ -207,14 +207,14 @@ impl<'a> Body<'a> {
         (point.shift + further, point.blur + self.particle.bounds.longest_normal * further)
     }
 
-    /// Weight of the planes in S, 1/length².
-    pub fn plane_weight(&self) -> f64 {
-        self.particle.plane_weight
+    /// The weights of (regularised) S.
+    pub fn weights(&self) -> &Weights {
+        &self.weights
     }
 
-    /// Weight of the shadow sphere in (regularised) S, 1/length².
-    pub fn sphere_weight(&self) -> f64 {
-        self.sphere_weight
+    /// Weight of the planes in S, 1/length².
+    pub fn plane_weight(&self) -> f64 {
+        self.weights.plane
     }
 
     /// 2w with the weight w of the planes, 1/length²: times |n|² it is the curvature that a plane gives S across
@@ -231,19 +231,19 @@ impl<'a> Body<'a> {
 
     /// Curvature of the shadow sphere's share of S, the least in any direction.
     pub fn sphere_curvature(&self) -> f64 {
-        2.0 * self.sphere_weight
+        2.0 * self.weights.sphere
     }
 
     /// Bound on how fast the shadow sphere's share of S changes with its centre where S is `value`: 2m|y| with m|y|² ≤
     /// S.
     #[inline]
     pub fn sphere_slope(&self, value: f64) -> f64 {
-        2.0 * (self.sphere_weight * larger(value, 0.0)).sqrt()
+        2.0 * (self.weights.sphere * larger(value, 0.0)).sqrt()
     }
 
     /// Weight of the sphere that the regularisation adds to S.
     fn added(&self) -> f64 {
-        self.sphere_weight - self.particle.sphere_weight
+        self.weights.sphere - self.particle.sphere_weight
     }
 
     /// How much the regularisation adds to S at x.

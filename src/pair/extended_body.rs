@@ -13,7 +13,7 @@ use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pair::body::Body;
 use crate::pair::boundary_part::WideFrame;
 use crate::pair::pair::{Given, Pair};
-use crate::particle::particle::Particle;
+use crate::particle::potential::{Sums, Weights};
 use crate::pose::{Pose, Turn};
 use nalgebra::{Matrix3, Vector3};
 
@@ -102,8 +102,7 @@ pub(crate) struct ExtendedBody<'a> {
     planes: Vec<Plane>,
     /// No other plane is on within this distance of x₀.
     reach: f64,
-    plane_weight: DoubleDouble,
-    sphere_weight: DoubleDouble,
+    weights: Weights<DoubleDouble>,
     /// |x₀| + 2|centre|, the lengths that ROUNDING multiplies (docs/theory.md, 4.9).
     lengths: f64,
 }
@@ -167,7 +166,7 @@ impl<'a> ExtendedBody<'a> {
 
     fn new(body: &'a Body<'a>, axes: [Wide; 3], (centre, lengths): (Wide, f64), x: &Vector3<f64>) -> Self {
         let particle = body.particle;
-        let (plane_weight, sphere_weight) = weights(particle);
+        let own = Weights::precise(particle);
         let from_centre = wide(x) - centre;
         let local = Vector3::from([0, 1, 2].map(|i| axes[i].dot(&from_centre)));
         Self {
@@ -177,8 +176,7 @@ impl<'a> ExtendedBody<'a> {
             local,
             planes: Vec::new(),
             reach: 0.0,
-            plane_weight,
-            sphere_weight: if body.is_plain() { sphere_weight } else { of(body.sphere_weight()) },
+            weights: if body.is_plain() { own } else { Weights { sphere: of(body.weights().sphere), ..own } },
             lengths: x.norm() + 2.0 * larger(rounded(&centre).norm(), lengths),
         }
     }
@@ -245,23 +243,21 @@ impl<'a> ExtendedBody<'a> {
         axes: &Matrix3<f64>,
         metric: &Symmetric<DoubleDouble>,
     ) -> WideQuadratic {
-        let (w2, m2) = (self.plane_weight * 2.0, self.sphere_weight * 2.0);
         let turned = |v: &Wide| {
             let along = |i: usize| v.x * axes[(0, i)] + v.y * axes[(1, i)] + v.z * axes[(2, i)];
             Vector3::new(along(0), along(1), along(2))
         };
-        let (mut square, mut linear, mut squares) = (of(0.0), wide(&Vector3::zeros()), Symmetric::default());
+        let (mut sums, mut squares) = (Sums::default(), Symmetric::default());
         self.visit_active(delta, undecided, |n, depth| {
             let n = turned(n);
-            square += depth * depth;
-            linear += n * depth;
+            sums.add(&n, depth);
             squares.add_square(&n);
         });
-        let y = self.from_centre + delta;
+        let (y, twice) = (self.from_centre + delta, self.weights.twice());
         WideQuadratic {
-            value: self.plane_weight * square + self.sphere_weight * y.dot(&y),
-            gradient: linear * w2 + turned(&y) * m2,
-            hessian: squares.weighted(w2, metric, m2),
+            value: self.weights.value(&sums, &y),
+            gradient: self.weights.gradient(&sums.linear, &turned(&y)),
+            hessian: squares.weighted(twice.plane, metric, twice.sphere),
         }
     }
 
@@ -314,8 +310,9 @@ impl<'a> ExtendedBody<'a> {
     /// Adds S at x₀ + δ + α·v, times a weight.
     pub fn add_to_line(&self, line: &mut Line, delta: &Wide, v: &Wide, weight: DoubleDouble) {
         let (quick, length) = (rounded(delta), rounded(delta).norm());
-        let (w2, m2) = (weight * self.plane_weight * 2.0, weight * self.sphere_weight * 2.0);
-        line.add_curvature(m2 * v.dot(v));
+        let twice = self.weights.twice();
+        let w2 = weight * twice.plane;
+        line.add_curvature(weight * twice.sphere * v.dot(v));
         for plane in &self.planes {
             let (depth, rounding) = plane.quick_depth(&quick, length);
             let depth = if depth < -rounding { of(depth) } else { plane.depth(delta) };
@@ -326,30 +323,27 @@ impl<'a> ExtendedBody<'a> {
     /// S and what enters the bounds, at x₀ + δ.
     pub fn value(&self, delta: &Wide) -> WideValue {
         let particle = self.body.particle;
-        let (mut square, mut linear) = (of(0.0), wide(&Vector3::zeros()));
-        let (mut pull, mut count, mut least) = (0.0, 0, f64::INFINITY);
+        let (mut sums, mut least) = (Sums::default(), f64::INFINITY);
         let clear = self.visit_active(delta, Undecided::BySign, |n, depth| {
             least = smaller(depth.rounded(), least);
-            square += depth * depth;
-            linear += n * depth;
-            pull += depth.rounded();
-            count += 1;
+            sums.add(n, depth);
         });
         let clear = smaller(least, clear);
         let y = self.from_centre + delta;
         let lengths = self.lengths + rounded(delta).norm();
         let unit = ROUNDING * DoubleDouble::UNIT;
         let normals = particle.bounds.longest_normal;
-        let pull = 2.0 * self.plane_weight.rounded() * pull;
+        let (plane_weight, sphere_weight, count) = (self.plane_weight(), self.weights.sphere.rounded(), sums.count);
+        let pull = 2.0 * plane_weight * sums.depth.rounded();
         WideValue {
-            value: self.plane_weight * square + self.sphere_weight * y.dot(&y),
-            gradient: linear * (self.plane_weight * 2.0) + y * (self.sphere_weight * 2.0),
+            value: self.weights.value(&sums, &y),
+            gradient: self.weights.gradient(&sums.linear, &y),
             pull,
             count,
             blur: unit * (normals * lengths + particle.bounds.offset_within(lengths)),
-            weight_of_planes: self.planes.len() as f64 * self.plane_weight.rounded(),
-            of_centre: self.sphere_weight.rounded() * unit * lengths * (2.0 * rounded(&y).norm() + unit * lengths),
-            turn: rounding_of_sums(count) * normals * pull + unit * 2.0 * self.sphere_weight.rounded() * lengths,
+            weight_of_planes: self.planes.len() as f64 * plane_weight,
+            of_centre: sphere_weight * unit * lengths * (2.0 * rounded(&y).norm() + unit * lengths),
+            turn: rounding_of_sums(count) * normals * pull + unit * 2.0 * sphere_weight * lengths,
             clear,
         }
     }
@@ -388,12 +382,12 @@ impl<'a> ExtendedBody<'a> {
 
     /// Planes' weight, 1/length².
     pub fn plane_weight(&self) -> f64 {
-        self.plane_weight.rounded()
+        self.weights.plane.rounded()
     }
 
     /// Least curvature of S in any direction.
     pub fn soft(&self) -> f64 {
-        2.0 * self.sphere_weight.rounded()
+        2.0 * self.weights.sphere.rounded()
     }
 
     /// Bound on the rounding of the centre of the sphere, length.
@@ -404,14 +398,6 @@ impl<'a> ExtendedBody<'a> {
 
 /// How much farther planes are gathered than they are needed.
 const GATHERED_AHEAD: f64 = 2.0;
-
-/// (1−k)/r² and k/R² of a particle; 0 where the particle has 0.
-pub(crate) fn weights(particle: &Particle) -> (DoubleDouble, DoubleDouble) {
-    let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
-    let quotient = |of: DoubleDouble, by: f64| of / DoubleDouble::product(by, by);
-    let plane = if particle.plane_weight > 0.0 { quotient(DoubleDouble::sum(1.0, -k), r) } else { of(0.0) };
-    (plane, if particle.sphere_weight > 0.0 { quotient(of(k), shadow) } else { of(0.0) })
-}
 
 /// The axes of a body in the world, from its rotation as given.
 pub(crate) fn axes(pose: &Pose) -> [Wide; 3] {

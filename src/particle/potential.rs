@@ -3,10 +3,95 @@
 //! S is piecewise quadratic: value, gradient and Hessian at a point describe it exactly as long as the active set, the
 //! planes with n·y > d, does not change. (The solver counts those above −blur, `pair::local_point`.)
 
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::double_double::DoubleDouble;
+use crate::linalg::number::{Number, larger, smaller};
 use crate::linalg::symmetric::Symmetric;
 use crate::particle::shape::Shape;
 use nalgebra::Vector3;
+
+/// The weights of S = plane·Σ⟨depth⟩² + sphere·|y|², 1/length², in doubles or in numbers of 32 digits.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Weights<N = f64> {
+    /// (1−k)/r².
+    pub plane: N,
+    /// k/R², or more where flat faces are regularised.
+    pub sphere: N,
+}
+
+/// What the planes that are counted at a point add up to.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Sums<N: Number = f64> {
+    /// Σ depth², depth = n·y − d.
+    pub square: N,
+    /// Σ depth.
+    pub depth: N,
+    /// Σ depth·n.
+    pub linear: Vector3<N>,
+    /// Number of planes.
+    pub count: u32,
+}
+
+impl<N: Number> Sums<N> {
+    /// Counts a plane.
+    #[inline(always)]
+    pub fn add(&mut self, n: &Vector3<N>, depth: N) {
+        self.square += depth * depth;
+        self.depth += depth;
+        self.linear += n * depth;
+        self.count += 1;
+    }
+}
+
+impl Weights {
+    /// Of a shape, with its sphericity at least this (about a sphere of the bounding radius).
+    #[inline]
+    pub fn of(shape: &Shape, least_sphericity: f64) -> Self {
+        let radius = shape.bounds.radius;
+        Self { plane: shape.plane_weight, sphere: larger(shape.sphere_weight, least_sphericity / (radius * radius)) }
+    }
+}
+
+impl Weights<DoubleDouble> {
+    /// Of a shape, from r, k and R as they were given; 0 where the shape has 0.
+    pub fn precise(shape: &Shape) -> Self {
+        let quotient = |of: DoubleDouble, by: f64| of / DoubleDouble::product(by, by);
+        let (plane, sphere) = (DoubleDouble::sum(1.0, -shape.sphericity), DoubleDouble::from(shape.sphericity));
+        let or_none = |weight: f64, precise: DoubleDouble| if weight > 0.0 { precise } else { DoubleDouble::from(0.0) };
+        Self {
+            plane: or_none(shape.plane_weight, quotient(plane, shape.rounding_radius)),
+            sphere: or_none(shape.sphere_weight, quotient(sphere, shape.shadow_radius)),
+        }
+    }
+}
+
+impl<N: Number> Weights<N> {
+    /// S at y.
+    #[inline(always)]
+    pub fn value(&self, sums: &Sums<N>, y: &Vector3<N>) -> N {
+        self.plane * sums.square + self.sphere * (y.x * y.x + y.y * y.y + y.z * y.z)
+    }
+
+    /// ∇S at y, in the axes of both.
+    #[inline(always)]
+    pub fn gradient(&self, linear: &Vector3<N>, y: &Vector3<N>) -> Vector3<N> {
+        let twice = self.twice();
+        linear * twice.plane + y * twice.sphere
+    }
+
+    /// ∇²S, from Σ n nᵀ in orthonormal axes.
+    #[inline(always)]
+    pub fn hessian(&self, squares: &Symmetric<N>) -> Symmetric<N> {
+        let twice = self.twice();
+        squares.scaled(twice.plane, twice.sphere)
+    }
+
+    /// The weights of curvatures.
+    #[inline(always)]
+    pub fn twice(&self) -> Self {
+        let two = N::of(2.0);
+        Self { plane: two * self.plane, sphere: two * self.sphere }
+    }
+}
 
 /// S near a point: S(x + h) = expansion + gradient·h + ½ hᵀ·hessian·h as long as the active set at x + h is the set of
 /// planes that were counted.
@@ -85,18 +170,18 @@ pub struct OnLine {
 
 /// S(y).
 pub fn value(shape: &Shape, y: &Vector3<f64>) -> f64 {
-    let mut sum = 0.0;
-    shape.visit_near(y, 0.0, |_, _, excess| sum += excess.max(0.0) * excess.max(0.0));
-    shape.plane_weight * sum + shape.sphere_weight * y.norm_squared()
+    let mut sums = Sums::default();
+    shape.visit_near(y, 0.0, |_, n, excess| sums.add(&n, excess.max(0.0)));
+    shape.weights().value(&sums, y)
 }
 
 /// S, ∇S, ∇²S at y, local frame.
 pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
-    turned(shape, shape.sphere_weight, |n| n, y, 0.0, |_, excess| excess > 0.0)
+    turned(shape, &shape.weights(), |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
-/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weight of
-/// the shadow sphere may differ from the shape's own. `counts` says for a plane and its n·y − d whether it is counted;
+/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weights may
+/// differ from the shape's own. `counts` says for a plane and its n·y − d whether it is counted;
 /// none below −`early` is.
 ///
 /// Each normal is turned before it is squared, and not the finished Hessian: in a frame aligned with a face the small
@@ -104,15 +189,14 @@ pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
 #[inline(always)]
 pub(crate) fn turned(
     shape: &Shape,
-    sphere_weight: f64,
+    weights: &Weights,
     turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
     early: f64,
     counts: impl Fn(usize, f64) -> bool,
 ) -> Quadratic {
-    let plane_weight = shape.plane_weight;
-    let (mut square, mut all, mut linear, mut count) = (0.0, 0.0, 0.0, 0);
-    let mut g = Vector3::zeros();
+    // All that are counted, and the depths of those that are active.
+    let (mut sums, mut square, mut depth) = (Sums::default(), 0.0, 0.0);
     let mut squares = Symmetric::default();
     let mut clear = f64::INFINITY;
     let most_left_out = shape.visit_near(y, early, |i, n, excess| {
@@ -123,22 +207,18 @@ pub(crate) fn turned(
             let n = turn(n);
             let reached = larger(excess, 0.0);
             square += reached * reached;
-            all += excess * excess;
-            linear += reached;
-            count += 1;
-            g += excess * n;
+            depth += reached;
+            sums.add(&n, excess);
             squares.add_square(&n);
         }
     });
-    let (w2, m2) = (2.0 * plane_weight, 2.0 * sphere_weight);
-    let of_sphere = sphere_weight * y.norm_squared();
     Quadratic {
-        value: plane_weight * square + of_sphere,
-        expansion: plane_weight * all + of_sphere,
-        gradient: w2 * g + m2 * turn(*y),
-        hessian: squares.scaled(w2, m2),
-        pull: w2 * linear,
-        count,
+        value: weights.value(&Sums { square, ..sums }, y),
+        expansion: weights.value(&sums, y),
+        gradient: weights.gradient(&sums.linear, &turn(*y)),
+        hessian: weights.hessian(&squares),
+        pull: weights.twice().plane * depth,
+        count: sums.count,
         clear: smaller(clear, -most_left_out),
     }
 }
@@ -146,27 +226,23 @@ pub(crate) fn turned(
 /// S, ∇S at y, local frame.
 #[inline(always)]
 pub(crate) fn tangent(shape: &Shape, y: &Vector3<f64>) -> Tangent {
-    let (mut square, mut linear, mut count) = (0.0, 0.0, 0.0);
-    let mut g = Vector3::zeros();
+    let mut sums = Sums::default();
     shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
-            square += excess * excess;
-            linear += excess;
-            count += 1.0;
-            g += excess * n;
+            sums.add(&n, excess);
         }
     });
-    let (w, m) = (shape.plane_weight, shape.sphere_weight);
+    let (weights, curvature) = (shape.weights(), shape.weights().twice().plane);
     Tangent {
-        value: w * square + m * y.norm_squared(),
-        gradient: 2.0 * (w * g + m * y),
-        pull: 2.0 * w * linear,
-        stiffness: 2.0 * w * count * shape.bounds.longest_normal,
+        value: weights.value(&sums, y),
+        gradient: weights.gradient(&sums.linear, y),
+        pull: curvature * sums.depth,
+        stiffness: curvature * f64::from(sums.count) * shape.bounds.longest_normal,
     }
 }
 
 /// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
-pub fn on_line(shape: &Shape, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
+pub(crate) fn on_line(shape: &Shape, weights: &Weights, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
     let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
     shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
@@ -176,7 +252,7 @@ pub fn on_line(shape: &Shape, sphere_weight: f64, y: &Vector3<f64>, e: &Vector3<
             steep += rate * rate;
         }
     });
-    let (w, m) = (shape.plane_weight, sphere_weight);
+    let (w, m) = (weights.plane, weights.sphere);
     OnLine {
         value: w * square + m * y.norm_squared(),
         slope: 2.0 * (w * mixed + m * y.dot(e)),
@@ -221,7 +297,7 @@ mod tests {
         let particle = Particle::new(&planes(), R, K, SHADOW).unwrap();
         for x in points() {
             let expected = by_definition(&x);
-            let line = on_line(&particle, particle.sphere_weight, &x, &Vector3::x());
+            let line = on_line(&particle, &particle.weights(), &x, &Vector3::x());
             for found in [value(&particle, &x), local(&particle, &x).value, tangent(&particle, &x).value, line.value] {
                 assert!((found - expected).abs() <= 1e-13 * expected, "{found} for {expected}");
             }
@@ -244,7 +320,7 @@ mod tests {
                 assert!((here.gradient[axis] - slope).abs() <= 1e-7 * scale, "{} for {slope}", here.gradient[axis]);
                 let bend = (particle.gradient(&(x + step)) - particle.gradient(&(x - step))) / (2.0 * h);
                 assert!((here.hessian.matrix().column(axis) - bend).norm() <= 1e-6 * scale);
-                let line = on_line(&particle, particle.sphere_weight, &x, &Vector3::ith(axis, 1.0));
+                let line = on_line(&particle, &particle.weights(), &x, &Vector3::ith(axis, 1.0));
                 assert!((line.slope - here.gradient[axis]).abs() <= 1e-13 * scale);
                 assert!((line.curvature - here.hessian.matrix()[(axis, axis)]).abs() <= 1e-12 * scale);
             }

@@ -140,7 +140,7 @@ impl Ray<'_> {
     /// S − 1 with slope and curvature.
     #[inline(always)]
     fn at(&self, tau: f64) -> OnLine {
-        let mut line = potential::on_line(self.shape, self.shape.sphere_weight, &self.point(tau), self.direction);
+        let mut line = potential::on_line(self.shape, &self.shape.weights(), &self.point(tau), self.direction);
         line.value -= 1.0;
         line
     }

@@ -17,6 +17,7 @@ use crate::particle::error::ParticleError;
 use crate::particle::neighbours::Neighbours;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::plane_clusters::PlaneClusters;
+use crate::particle::potential::Weights;
 use nalgebra::Vector3;
 use std::ops::{Range, RangeInclusive};
 
@@ -57,6 +58,12 @@ pub struct Shape {
 }
 
 impl Shape {
+    /// The weights of S.
+    #[inline(always)]
+    pub(crate) fn weights(&self) -> Weights {
+        Weights { plane: self.plane_weight, sphere: self.sphere_weight }
+    }
+
     /// Checks and completes a definition. With two dimensions every plane is (a, b, 0, d), and only the cut at z = 0
     /// has to be bounded. Of planes that are one within the bounding ball the first counts.
     pub(crate) fn new(

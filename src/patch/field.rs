@@ -2,6 +2,7 @@
 //! to B.
 
 use crate::particle::particle::Particle;
+use crate::particle::potential::Weights;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
 
@@ -49,14 +50,14 @@ impl<'a> Placed<'a> {
         frame: &Matrix3<f64>,
         least_sphericity: f64,
     ) -> Self {
-        let least = least_sphericity / particle.bounding_radius().powi(2);
+        let weights = Weights::of(particle, least_sphericity);
         Self {
             particle,
             axes: pose.rotation().tr_mul(frame),
             origin: pose.rotation().tr_mul(branch),
             from_centre: frame.tr_mul(branch).into(),
-            plane_weight: particle.plane_weight,
-            sphere_weight: particle.sphere_weight.max(least),
+            plane_weight: weights.plane,
+            sphere_weight: weights.sphere,
         }
     }
 }

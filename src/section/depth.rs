@@ -5,29 +5,24 @@
 
 use super::plane_section::PlaneSection;
 use crate::linalg::double_double::DoubleDouble;
+use crate::particle::potential::{Sums, Weights};
+use nalgebra::Vector3;
 
 /// 1 − S at the contact point.
 pub(super) fn of(section: &PlaneSection) -> f64 {
     let PlaneSection { shape, branch, rotation, point, .. } = section;
-    let x = [0, 1, 2].map(|axis| dot(rotation.column(axis).iter().zip(branch.iter().map(|&b| b.into()))));
-    let mut squares = DoubleDouble::default();
+    let x =
+        Vector3::from([0, 1, 2].map(|axis| dot(rotation.column(axis).iter().zip(branch.iter().map(|&b| b.into())))));
+    let mut sums = Sums::default();
     if !shape.is_sphere() {
         shape.visit_near(point, 0.0, |i, normal, excess| {
             if excess > 0.0 {
-                let excess = dot(normal.iter().zip(x)) + DoubleDouble::from(-shape.offset(i));
-                squares += excess * excess;
+                let excess = dot(normal.iter().zip(x.iter().copied())) + DoubleDouble::from(-shape.offset(i));
+                sums.add(&normal.map(DoubleDouble::from), excess);
             }
         });
     }
-    let (r, k, shadow_radius) = (shape.rounding_radius, shape.sphericity, shape.shadow_radius);
-    let square = |a: f64| DoubleDouble::product(a, a);
-    let mut s = DoubleDouble::default();
-    if squares.rounded() > 0.0 {
-        s += squares * (DoubleDouble::sum(1.0, -k) / square(r));
-    }
-    if k > 0.0 {
-        s += (x[0] * x[0] + x[1] * x[1] + x[2] * x[2]) * (DoubleDouble::from(k) / square(shadow_radius));
-    }
+    let s = Weights::precise(shape).value(&sums, &x);
     (DoubleDouble::from(1.0) - s).rounded()
 }
 
