@@ -30,8 +30,17 @@ impl Bracket {
     }
 }
 
-/// Most steps: halving alone leaves 2⁻¹⁰⁰ of the bracket.
-const MOST_STEPS: usize = 100;
+/// Most steps of a search with a bracket, here and elsewhere: halving alone leaves 2⁻¹⁰⁰ of it.
+pub(crate) const MOST_STEPS: usize = 100;
+
+/// The lower end of a bracket that was halved until nothing is left of it.
+pub(crate) fn halved(mut bracket: Bracket, is_beyond: impl Fn(f64) -> bool) -> f64 {
+    for _ in 0..MOST_STEPS {
+        let middle = bracket.middle();
+        bracket.narrow(middle, is_beyond(middle));
+    }
+    bracket.low
+}
 
 /// The root of a function that changes its sign once on a finite bracket, from below to above, by Newton's method.
 ///

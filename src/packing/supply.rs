@@ -1,5 +1,6 @@
 //! The bodies that are to be placed, one after the other.
 
+use crate::linalg::root::{Bracket, halved};
 use crate::packing::error::PackError;
 use crate::packing::sizes::Sizes;
 use crate::particle::mass_properties::{self, MASS_TOLERANCE};
@@ -40,9 +41,6 @@ const LEAST_ENLARGEMENT: f64 = 1e-6;
 
 /// The golden ratio less 1: its multiples fill [0, 1) more evenly than random numbers.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;
-
-/// Halvings that find a radius to all digits.
-const HALVINGS: usize = 60;
 
 impl<'a> Supply<'a> {
     pub fn new(shapes: &'a [Particle], sizes: &'a Sizes, margin: f64) -> Result<Self, PackError> {
@@ -127,12 +125,7 @@ fn inner_radius(shape: &Particle) -> f64 {
         let planes: f64 = (0..shape.plane_count()).map(|i| excess(i).powi(2)).sum();
         shape.plane_weight * planes + shape.sphere_weight * rho * rho
     };
-    let (mut low, mut high) = (0.0, shape.bounding_radius());
-    for _ in 0..HALVINGS {
-        let middle = 0.5 * (low + high);
-        if at_most(middle) <= 1.0 { low = middle } else { high = middle }
-    }
-    low
+    halved(Bracket { low: 0.0, high: shape.bounding_radius() }, |rho| !(at_most(rho) <= 1.0))
 }
 
 #[cfg(test)]

@@ -6,13 +6,10 @@
 //!
 //! Stop criteria compare steps with an estimate of the rounding of a point on the ray; they are no error bounds.
 
-use crate::linalg::root::Bracket;
+use crate::linalg::root::{Bracket, MOST_STEPS};
 use crate::particle::potential::{self, OnLine};
 use crate::particle::shape::Shape;
 use nalgebra::Vector3;
-
-/// Most steps; every Newton step from outside passes a plane at least, so that only rounding leads here.
-const MOST_STEPS: usize = 100;
 
 /// Surface points are no further off than this, in the largest distance that the bounding ball allows: that is rounded,
 /// too.

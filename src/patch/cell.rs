@@ -4,6 +4,7 @@
 //! are quadratics. The patch is the curve D = 0 on the branch where D rises with k.
 
 use super::field::Owner;
+use crate::linalg::root::MOST_STEPS;
 
 /// v + h·H + k·K + hh·H² + hk·H·K + kk·K², and its derivative p + ph·H + pk·K across the half-plane.
 #[derive(Clone, Copy, Debug, Default)]
@@ -130,9 +131,6 @@ impl BoundingTriangle {
         if h > 0.0 && h < self.h { Self { h, on_tangent: self.on_tangent / self.h * h, on_patch: k } } else { *self }
     }
 }
-
-/// Most steps of a search for the rim.
-const RIM_STEPS: usize = 50;
 
 /// A step back of this part of the size of the bodies is rounding.
 const TINY: f64 = 1e-13;
@@ -308,7 +306,7 @@ impl Cell {
             h = if limit.is_finite() { limit } else { farthest };
         }
         let mut turned = None;
-        for _ in 0..RIM_STEPS {
+        for _ in 0..MOST_STEPS {
             let Some((k, rise)) = self.height(h) else {
                 // Beyond the turn of the curve.
                 turned = Some(h);

@@ -1,6 +1,7 @@
 //! The potentials in the frame of a patch: origin at the contact point, axes u, v across the normal, z along it, from A
 //! to B.
 
+use crate::linalg::root::MOST_STEPS;
 use crate::particle::particle::Particle;
 use crate::particle::potential::Weights;
 use crate::pose::Pose;
@@ -237,7 +238,7 @@ impl<'a, 's> Field<'a, 's> {
         self.b?;
         let (mut below, mut above) = (f64::NEG_INFINITY, f64::INFINITY);
         let mut z = from;
-        for _ in 0..60 {
+        for _ in 0..MOST_STEPS {
             let [(a, slope_a), (b, slope_b)] = self.values(&[u, v, z]);
             let (value, slope) = (a - b, slope_a - slope_b);
             if value == 0.0 {

@@ -1,12 +1,10 @@
 //! Points and arcs of the rim of the patch, on which both potentials are 1, and of the curves inside.
 
 use super::field::{Field, Look, Owner, dot};
+use crate::linalg::root::MOST_STEPS;
 
-/// Most steps of Newton's method.
-const MOST_STEPS: usize = 12;
-
-/// The same with a bracket.
-const MOST_BRACKETED: usize = 60;
+/// Most steps of Newton's method without a bracket.
+const MOST_NEWTON: usize = 12;
 
 /// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in
 /// it.
@@ -111,7 +109,7 @@ fn outwards(
 ) -> Option<([f64; 3], Look)> {
     let (mut inside, mut outside, mut t) = (0.0, f64::INFINITY, from.max(0.0));
     let mut z = at(0.0)[2];
-    for _ in 0..MOST_BRACKETED {
+    for _ in 0..MOST_STEPS {
         let [u, v, _] = at(t);
         if field.b.is_some() {
             z = field.height(u, v, z)?;
@@ -144,7 +142,7 @@ fn on_line(
     (out, length): ([f64; 2], f64),
     function: impl Fn(&Look, &[f64; 3]) -> (f64, [f64; 3]),
 ) -> Option<([f64; 3], Look)> {
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MOST_NEWTON {
         let look = field.look(&x);
         let (d, rises) = look.difference(field.b.is_some());
         let (off, slopes) = function(&look, &x);

@@ -3,7 +3,7 @@
 use super::goal::{Goal, both};
 use super::program::{Answer, Program, Tuning};
 use super::solution::{ConeProgramError, ConeProgramSolution};
-use crate::linalg::root::Bracket;
+use crate::linalg::root::{Bracket, halved};
 use crate::pair::pair::Pair;
 use clarabel::solver::SolverStatus;
 use nalgebra::Vector3;
@@ -34,8 +34,6 @@ const REPEAT: f64 = 1e-10;
 /// Most corrections. Ordinary pairs need one or two, near-polyhedral ones up to 4; sizes, radii and
 /// distances drawn at random from eight decades up to 18 (measured).
 const MAX_PASSES: u32 = 40;
-/// Bisections that move an infeasible point to the boundary, to rounding.
-const BISECTIONS: u32 = 60;
 
 /// The first pass: loose, since every later pass is checked by itself.
 const FIRST: Tuning = Tuning {
@@ -230,10 +228,5 @@ fn inside(pair: &Pair, goal: Goal, x: &Vector3<f64>) -> Vector3<f64> {
     if held(1.0) <= 1.0 + AGREEMENT {
         return *x;
     }
-    let mut bracket = Bracket { low: 0.0, high: 1.0 };
-    for _ in 0..BISECTIONS {
-        let middle = bracket.middle();
-        bracket.narrow(middle, !(held(middle) <= 1.0));
-    }
-    home + (x - home) * bracket.low
+    home + (x - home) * halved(Bracket { low: 0.0, high: 1.0 }, |part| !(held(part) <= 1.0))
 }

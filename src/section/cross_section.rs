@@ -13,7 +13,7 @@ use super::depth;
 use super::edge_curve::{EdgeCurve, quarter_turn};
 use super::lines::{Line, Lines, ROUNDING};
 use super::plane_section::{Failure, PlaneSection};
-use crate::linalg::root::Bracket;
+use crate::linalg::root::{Bracket, MOST_STEPS};
 use nalgebra::Vector2;
 
 /// The cross-section {S ≤ 1} of one particle.
@@ -58,9 +58,6 @@ const SMALL: f64 = 1e11;
 
 /// S − 1 up to which a contact point counts as on the surface: what a solver may leave.
 const ON_SURFACE: f64 = 1e-6;
-
-/// Most steps of a search along a ray; four are usual.
-const MOST_STEPS: usize = 60;
 
 impl<'s> CrossSection<'s> {
     /// Fails when the origin is outside.

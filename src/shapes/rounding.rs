@@ -15,6 +15,7 @@
 use super::error::{ShapeError, positive, within};
 use super::principal_frame::principal_orientation;
 use super::sharp_body::SharpBody;
+use crate::linalg::root::MOST_STEPS;
 use crate::particle::mass_properties::{self, MASS_TOLERANCE, MassProperties};
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
@@ -27,7 +28,6 @@ use nalgebra::{Matrix3, Vector3};
 /// k.
 const CENTRED: f64 = 1e-5;
 const ROUGHLY: f64 = 1e-4;
-const MOST_STEPS: usize = 50;
 
 /// How edges and corners are rounded. The size of a body is the diameter of the largest ball that fits into it while it
 /// is sharp.

@@ -15,7 +15,7 @@ use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::{self, StiffNormals};
 use crate::linalg::line::Line;
 use crate::linalg::number::{Number, Single, larger, smaller};
-use crate::linalg::root::Bracket;
+use crate::linalg::root::{Bracket, MOST_STEPS};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::linalg::wide::{Wide, rounded, wide};
 use crate::model::dual_path::{Optimum, Side};
@@ -28,9 +28,8 @@ use crate::pair::pair::{Given, Pair};
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
 
-/// Most values of λ, and most Newton steps for each.
+/// Most values of λ.
 const MOST_WEIGHTS: u32 = 60;
-const MOST_STEPS: u32 = 100;
 
 /// Reach of the first planes about the start, in radii of the smaller particle; a solution farther away is solved again
 /// about itself.
