@@ -44,16 +44,22 @@
 //! | `rock_mass` | the scene of a rock mass |
 //! | `assembly` | a scene in units of its own |
 //! | `program` | one cone program |
+//! | `problem` | a scene with its strength, and answers that prove themselves |
+//! | `sequence` | programs in a row, until nothing changes |
 //! | `problems` | the three questions |
 
 mod assembly;
 mod error;
+mod problem;
 mod problems;
 mod program;
 mod rock_mass;
 mod scene;
+mod sequence;
 
 pub use error::EquilibriumError;
-pub use problems::{Equilibrium, Flow, load_factor, stands, strength_factor};
+pub use problem::Equilibrium;
+pub use problems::{load_factor, stands, strength_factor};
 pub use rock_mass::JointStrength;
 pub use scene::{Body, Contact, Load, Scene, Velocity};
+pub use sequence::Flow;

@@ -180,8 +180,8 @@ pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
     turned(shape, &shape.weights(), |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
-/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weights may
-/// differ from the shape's own. `counts` says for a plane and its n·y − d whether it is counted;
+/// S, ∇S, ∇²S at the local point y. Derivatives are in the frame to which `turn` takes local directions; the weights
+/// may differ from the shape's own. `counts` says for a plane and its n·y − d whether it is counted;
 /// none below −`early` is.
 ///
 /// Each normal is turned before it is squared, and not the finished Hessian: in a frame aligned with a face the small
