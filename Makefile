@@ -286,7 +286,7 @@ roofline: glue
 	@benches/peers/roofline.py
 
 header:
-	@PP_WRITE_HEADER=1 cargo test --quiet --release --test header
+	@PP_WRITE_HEADER=1 cargo test --quiet --profile quick --test header
 
 lint:
 	$(call heading,Formatting)

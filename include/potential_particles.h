@@ -164,7 +164,7 @@
 // the one given is the line of centres, or the x axis of B.
 #define PP_FLAG_NORMAL_BY_CENTRES 4
 
-// Started from the solution that the pair remembers (struct pp_pair_state).
+// Started from the solution that the pair remembers (pp_pair_state).
 #define PP_FLAG_WARM 8
 
 // Answered in extended precision (about 32 digits): doubles did not settle it, or not to the gap asked for.
@@ -293,7 +293,7 @@ typedef struct pp_settings {
     // 0 (default): every contact is solved. Above 0: a contact may be carried on from the last one of its
     // pair and not solved (PP_FLAG_CARRIED), where no plane can have switched and its point is
     // known to this share of the smaller bounding radius; a separated pair, as long as s is surely above 1. In
-    // [0, 0.1]; 1e-9 is a good choice. Needs a struct pp_pair_state; contacts of
+    // [0, 0.1]; 1e-9 is a good choice. Needs a pp_pair_state; contacts of
     // PP_CLOSEST and by PP_CONE_PROGRAM are always solved.
     double carry_tolerance;
 } pp_settings;

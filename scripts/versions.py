@@ -44,7 +44,7 @@ PLACES = [
 
 
 def pattern(before):
-    return re.compile(f"({before})" + r"(\d[\d.]*)", re.MULTILINE | (re.DOTALL if before.startswith(r"\A") else 0))
+    return re.compile(f"({before})" + r"(\d+(?:\.\d+)*)", re.MULTILINE | (re.DOTALL if before.startswith(r"\A") else 0))
 
 
 def first(path, before):
@@ -57,14 +57,15 @@ def main():
         sys.exit(f"{' '.join(given)}: it must be three numbers, as in 0.3.0, or abi and a number")
     version, abi = first("Cargo.toml", r'^version = "'), first("src/capi/abi.rs", r"^pub const PP_ABI_VERSION: u32 = ")
     installed = TOP / "debian" / f"{PACKAGE}{abi}.install"
-    if len(given) == 2:
-        abi = given[1]
-        installed = installed.rename(installed.with_name(f"{PACKAGE}{abi}.install"))
-    elif given:
-        version = given[0]
     faults = 0 if installed.exists() else 1
     if faults:
         print(f"{installed.relative_to(TOP)} is missing")
+    if len(given) == 2:
+        abi = given[1]
+        if not faults:
+            installed.rename(installed.with_name(f"{PACKAGE}{abi}.install"))
+    elif given:
+        version = given[0]
     for path, before, form in PLACES:
         text, wanted = (TOP / path).read_text(), form.format(*version.split("."), abi)
         found = pattern(before).findall(text)

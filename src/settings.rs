@@ -214,7 +214,7 @@ impl Default for Written {
 #[non_exhaustive]
 pub enum SettingsError {
     /// A number is out of range.
-    #[error("{name}={value} must lie in {range}")]
+    #[error("{name}={value:?} must lie in {range}")]
     Number {
         /// Its name.
         name: &'static str,

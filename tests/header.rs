@@ -6,7 +6,7 @@ use std::{env, fs};
 
 /// Set to any value, it makes the test write the header instead of comparing it.
 const WRITE: &str = "PP_WRITE_HEADER";
-const REMEDY: &str = "make header    # or: PP_WRITE_HEADER=1 cargo test --test header";
+const REMEDY: &str = "make header";
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -40,7 +40,7 @@ fn comment_in_c(line: &str) -> String {
             }
             None if link == "Flags" => "PP_FLAG_... bits".into(),
             None if link == "Contact" => "struct pp_contact".into(),
-            None if link == "PairState" => "struct pp_pair_state".into(),
+            None if link == "PairState" => "pp_pair_state".into(),
             None if link == "PatchState" => "struct pp_patch_state".into(),
             None => panic!("{link}: no name in C"),
         };

@@ -18,7 +18,7 @@ import numpy as np
 
 import potential_particles as pp
 sys.path[:0] = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("studies", "lammps-glue/python")]
-from potential_particles_lammps.library import record
+from potential_particles_lammps.library import struct
 from summary import print_targets, target, write_summary
 
 TOP = Path(__file__).resolve().parents[2]
@@ -45,14 +45,14 @@ class Library:
 
     def settings(self, carry):
         """A struct pp_settings with this carry_tolerance."""
-        settings = record("pp_settings")
-        self.library.pp_settings_default(ctypes.c_void_p(settings.ctypes.data))
+        settings = struct("pp_settings")()
+        self.library.pp_settings_default(ctypes.byref(settings))
         settings.carry_tolerance = carry
         return settings
 
     def batch(self, particles, poses, pairs, settings, states, contacts, statuses):
         done = self.library.pp_contact_detect_batch(particles.ctypes.data, poses.ctypes.data, len(poses),
-                                                    pairs.ctypes.data, len(pairs), settings.ctypes.data, 1,
+                                                    pairs.ctypes.data, len(pairs), ctypes.byref(settings), 1,
                                                     states.ctypes.data, contacts.ctypes.data, statuses.ctypes.data)
         assert done == 0 and not statuses.any()
 

@@ -106,7 +106,11 @@ pub fn comment_in_python(comment: &str) -> String {
     for piece in pieces {
         let (link, rest) = piece.split_once("`]").unwrap_or((piece, ""));
         match link.split_once("::") {
-            Some((_, name)) => text += &format!("{:?}", name.to_lowercase().replace('_', " ")),
+            Some(("Flags", name)) => text += &format!("{:?}", name.to_lowercase().replace('_', " ")),
+            Some((_, name)) => {
+                let apart = |c: char| if c.is_uppercase() { format!("_{}", c.to_lowercase()) } else { c.to_string() };
+                text += &format!("{:?}", name.chars().map(apart).collect::<String>().trim_start_matches('_'));
+            }
             None => text += link,
         }
         // A path in Rust that follows a link.

@@ -77,6 +77,8 @@ impl PyPlanarParticle {
         Ok(self.0.potential(&vector::<2>(x, "x")?.into()))
     }
 
+    /// Area, centroid and second moments for unit density, in closed form; where rounding leaves more than tolerance,
+    /// relative, by a polygon of points of the boundary.
     #[pyo3(signature = (tolerance=1e-6))]
     fn area_properties(&self, py: Python<'_>, tolerance: f64) -> PyResult<PyAreaProperties> {
         py.detach(|| self.0.area_properties(tolerance)).map(PyAreaProperties).map_err(refused)

@@ -38,17 +38,20 @@ impl PySettings {
                 let known = format!("formulation, solve_separated{known}");
                 return Err(PyTypeError::new_err(format!("Settings has no {name:?}; it has {known}")));
             };
-            settings = with(settings, number.extract()?);
+            let number = number.extract().map_err(|error| PyTypeError::new_err(format!("{name}: {error}")))?;
+            settings = with(settings, number);
         }
         settings.validate().map_err(refused)?;
         Ok(Self(settings))
     }
 
+    /// "midway" or "closest".
     #[getter]
     fn formulation(&self) -> String {
         self.0.formulation.to_string()
     }
 
+    /// Whether separated pairs are solved to the end as well.
     #[getter]
     fn solve_separated(&self) -> bool {
         self.0.solve_separated()
@@ -79,5 +82,9 @@ pub fn or_default(settings: Option<&PySettings>) -> Settings {
 pub fn add(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<PySettings>()?;
     attributes!(module.py(), PySettings: Settings);
-    Ok(())
+    let class = module.py().get_type::<PySettings>();
+    let default = |name: &str| Settings::DEFAULT.numbers(name)[0];
+    let numbers: String = Settings::NUMBERS.iter().map(|(name, _)| format!(", {name}={:?}", default(name))).collect();
+    let signature = format!("(formulation=\"midway\", *, solve_separated=False{numbers})");
+    class.setattr("__doc__", format!("Settings{signature}\n\n{}", class.getattr("__doc__")?))
 }

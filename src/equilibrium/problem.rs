@@ -15,12 +15,12 @@ const BALANCED: f64 = 1e-6;
 pub struct Equilibrium {
     /// Whether there are forces in equilibrium, for a load factor or a strength factor: for any factor.
     pub stands: bool,
-    /// The load factor or the factor of safety; 0 where nothing stands, and in [`stands()`].
+    /// The load factor or the factor of safety; 0 where nothing stands, and in [`stands()`](super::stands).
     pub factor: f64,
     /// Force on the second body at each corner, contact after contact, in the axes of the scene; empty where nothing
     /// stands.
     pub forces: Vec<Vector3<f64>>,
-    /// Velocity of each body in the mechanism, the fastest at 1; empty in [`stands()`] of a scene that does.
+    /// Velocity of each body in the mechanism, the fastest at 1; empty in [`stands()`](super::stands) of a scene that does.
     pub mechanism: Vec<Velocity>,
     /// The largest force, or torque over the size of the body, that is left on a body, over the mean load of one.
     pub unbalanced: f64,

@@ -37,6 +37,9 @@ pub(crate) const MOST_STEPS: usize = 100;
 pub(crate) fn halved(mut bracket: Bracket, is_beyond: impl Fn(f64) -> bool) -> f64 {
     for _ in 0..MOST_STEPS {
         let middle = bracket.middle();
+        if !bracket.contains(middle) {
+            break;
+        }
         bracket.narrow(middle, is_beyond(middle));
     }
     bracket.low

@@ -6,6 +6,7 @@ use crate::particle::ray_cast;
 use crate::particle::shape::Shape;
 use crate::section::moments::{Moments, Sector, sectors};
 use nalgebra::{Matrix2, Vector2, Vector3};
+use std::collections::BinaryHeap;
 use std::f64::consts::TAU;
 
 /// Area and moments of a particle of unit density (mass per area), local frame.
@@ -28,35 +29,33 @@ const PARTS: usize = 8;
 /// Most points of an outline.
 const MOST_POINTS: usize = 1_000_000;
 
-/// In closed form, from the arcs of the boundary; where rounding leaves more than the tolerance of that, by polygons of
-/// points on rays.
+/// Distance of a polygon from the boundary, over the bounding radius, at its finest: some 70,000 points of a circle.
+const FINEST: f64 = 1e-9;
+
+/// In closed form, from the arcs of the boundary; where rounding leaves more than the tolerance of that, by a polygon
+/// of points on rays, if it is surely better.
 pub(super) fn of(shape: &Shape, tolerance: f64) -> AreaProperties {
+    let tolerance = larger(tolerance, FINEST);
     let mut arcs = Vec::new();
     let traced = sectors(shape, |sector| arcs.push(sector)).map(|()| properties(&arcs)).ok();
     if let Some(found) = traced.filter(|found| found.error <= tolerance) {
         return found;
     }
-    // What the error of a polygon is over the distance of its sides from the boundary, the one before says.
-    let mut off = tolerance * shape.bounds.radius;
-    let mut best = polygon(shape, off);
-    while best.error > tolerance {
-        off *= 0.5 * tolerance / best.error;
-        let finer = polygon(shape, off);
-        if !(finer.error < 0.5 * best.error) {
-            break;
-        }
-        best = finer;
-    }
-    traced.filter(|traced| !(best.error < traced.error)).unwrap_or(best)
+    // What the error is over the distance of the sides from the boundary, the first polygon says.
+    let rough = polygon(shape, tolerance);
+    let share = larger(0.5 * tolerance * tolerance / rough.error, FINEST);
+    let found = if rough.error > tolerance && share < tolerance { polygon(shape, share) } else { rough };
+    traced.filter(|traced| !(found.error < 0.1 * traced.error)).unwrap_or(found)
 }
 
-/// Of the polygon of an outline.
-fn polygon(shape: &Shape, tolerance: f64) -> AreaProperties {
-    let (points, off) = outline(shape, tolerance);
+/// Of the polygon of an outline; `share`: its tolerance over the bounding radius.
+fn polygon(shape: &Shape, share: f64) -> AreaProperties {
+    let (points, off) = outline(shape, share * shape.bounds.radius);
     let chord = |(from, to): (&Vector2<f64>, &Vector2<f64>)| Sector {
         moments: Moments::triangle(from, to),
         corners: [*from, 0.5 * (from + to), *to],
-        off,
+        // The points are rounded, too.
+        off: off + OF_SUMS * larger(from.norm(), to.norm()),
     };
     properties(&points.iter().zip(points.iter().cycle().skip(1)).map(chord).collect::<Vec<_>>())
 }
@@ -72,38 +71,89 @@ fn properties(parts: &[Sector]) -> AreaProperties {
             let farthest = corners.iter().map(|corner| (unscaled * corner).norm()).fold(0.0, f64::max);
             off * length * (1.0 + farthest).max(farthest * farthest)
         };
-        let of_sums = OF_SUMS * second.trace() / area * unscaled.norm_squared();
+        let of_sums = OF_SUMS * (parts.len() as f64).sqrt() * second.trace() / area * unscaled.norm_squared();
         parts.iter().map(of_part).sum::<f64>() / area + of_sums
     });
-    let error = if error.is_nan() { f64::INFINITY } else { error };
+    // Beyond 1 its units mean nothing; nor does what is not a number.
+    let error = if error < 1.0 { error } else { f64::INFINITY };
     AreaProperties { area, centroid: first / area, second_moment: second, error }
 }
 
-/// Points of the boundary in order, so that no chord between two of them is further than `tolerance` (length) from the
-/// boundary, or as many as there may be; and how far the farthest chord is.
-pub(super) fn outline(shape: &Shape, tolerance: f64) -> (Vec<Vector2<f64>>, f64) {
-    let on_ray = |angle: f64| {
-        let direction = Vector3::new(angle.cos(), angle.sin(), 0.0);
-        // The origin is inside, so that every ray leaves the particle.
-        (angle, ray_cast::distance(shape, &Vector3::zeros(), &direction).unwrap_or(0.0) * direction.xy())
-    };
-    let ends: Vec<_> = (0..=PARTS).map(|i| on_ray(TAU * i as f64 / PARTS as f64)).collect();
-    let (mut points, mut off) = (Vec::new(), 0.0_f64);
-    let mut left: Vec<_> = ends.windows(2).rev().map(|ends| [ends[0], ends[1]]).collect();
-    while let Some([start, end]) = left.pop() {
+/// A point of the boundary, and the angle of its ray.
+type OnRay = (f64, Vector2<f64>);
+
+/// A chord, the point of the boundary between its ends, and how far the boundary is from it at most.
+struct Chord {
+    ends: [OnRay; 2],
+    middle: OnRay,
+    off: f64,
+}
+
+impl Chord {
+    fn new(ends: [OnRay; 2], on_ray: &impl Fn(f64) -> OnRay) -> Self {
+        let [start, end] = ends;
         let middle = on_ray(0.5 * (start.0 + end.0));
         let (chord, beyond) = (end.1 - start.1, middle.1 - start.1);
         let share = chord.dot(&beyond) / chord.norm_squared();
         // The boundary is convex: where it is δ from the chord at a share m, it is nowhere further than δ/min(m, 1−m).
-        let farthest = chord.perp(&beyond).abs() / (chord.norm() * larger(share.min(1.0 - share), 0.0));
-        let is_between = start.0 < middle.0 && middle.0 < end.0;
-        if farthest > tolerance && is_between && points.len() + left.len() < MOST_POINTS {
-            left.extend([[middle, end], [start, middle]]);
+        let off = chord.perp(&beyond).abs() / (chord.norm() * larger(share.min(1.0 - share), 0.0));
+        Self { ends, middle, off: if off.is_nan() { f64::INFINITY } else { off } }
+    }
+
+    /// Whether there is a ray between those of its ends.
+    fn is_divisible(&self) -> bool {
+        self.ends[0].0 < self.middle.0 && self.middle.0 < self.ends[1].0
+    }
+}
+
+/// Points of the boundary in order, so that no chord between two of them is further than `tolerance` (length) from the
+/// boundary, or as many as there may be; and how far the farthest chord is. The farthest chords are divided first.
+pub(super) fn outline(shape: &Shape, tolerance: f64) -> (Vec<Vector2<f64>>, f64) {
+    let on_ray = |angle: f64| {
+        let direction = Vector3::new(angle.cos(), angle.sin(), 0.0);
+        // The origin is inside, so that every ray leaves the particle.
+        (angle, ray_cast::distance(shape, &Vector3::zeros(), &direction).unwrap_or(f64::NAN) * direction.xy())
+    };
+    let ends: Vec<_> = (0..=PARTS).map(|i| on_ray(TAU * i as f64 / PARTS as f64)).collect();
+    let mut left: BinaryHeap<Chord> = ends.windows(2).map(|ends| Chord::new([ends[0], ends[1]], &on_ray)).collect();
+    let (mut done, mut off) = (Vec::new(), 0.0);
+    while let Some(worst) = left.pop() {
+        if worst.off <= tolerance || left.len() + done.len() >= MOST_POINTS {
+            off = larger(worst.off, off);
+            done.push(worst);
+            break;
+        }
+        if worst.is_divisible() {
+            let [start, end] = worst.ends;
+            left.extend([[start, worst.middle], [worst.middle, end]].map(|ends| Chord::new(ends, &on_ray)));
         } else {
-            points.push(start.1);
             // Rays that cannot be told apart have no point between them that is further than both.
-            off = off.max(if is_between { farthest } else { (end.0 - start.0) * shape.bounds.radius });
+            off = larger((worst.ends[1].0 - worst.ends[0].0) * shape.bounds.radius, off);
+            done.push(worst);
         }
     }
-    (points, off)
+    done.extend(left);
+    done.sort_by(|a, b| a.ends[0].0.total_cmp(&b.ends[0].0));
+    (done.iter().map(|chord| chord.ends[0].1).collect(), off)
 }
+
+/// Chords are ordered by how far the boundary is from them.
+impl Ord for Chord {
+    fn cmp(&self, other: &Self) -> std::cmp::Ordering {
+        self.off.total_cmp(&other.off)
+    }
+}
+
+impl PartialOrd for Chord {
+    fn partial_cmp(&self, other: &Self) -> Option<std::cmp::Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Chord {
+    fn eq(&self, other: &Self) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Chord {}

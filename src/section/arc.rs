@@ -57,7 +57,7 @@ const SMALL: f64 = 0.03;
 
 /// Area between arc and chord over the area of the triangle of its chord and tangents, from the square of the tangent
 /// of half the angle: ((1+z)·atan√z − √z) / z^(3/2), for parabolas 2/3.
-fn filling(z: f64) -> f64 {
+pub(super) fn filling(z: f64) -> f64 {
     if z < SMALL {
         const SERIES: [f64; 9] = [
             2.0 / 3.0,

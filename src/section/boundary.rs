@@ -41,8 +41,8 @@ pub(super) struct Boundary<'s> {
     switching: Option<u32>,
     /// Estimated rounding of S at the current point, with that of the last arc, in units of ε.
     rounding: f64,
-    /// The same at the beginning of the last arc.
-    rounding_before: f64,
+    /// Rounding of S at the beginning of the last arc, and what S missed 1 by at its end before that was corrected.
+    missed: [f64; 2],
     /// Number of rays passed.
     rays: usize,
     /// Number of arcs so far.
@@ -75,7 +75,7 @@ impl<'s> Boundary<'s> {
             here,
             switching: None,
             rounding: here.rounding,
-            rounding_before: here.rounding,
+            missed: [0.0; 2],
             rays: 0,
             arcs: 0,
         };
@@ -95,11 +95,11 @@ impl<'s> Boundary<'s> {
         self.is_complete() && gap.abs() <= MISS * f64::EPSILON * self.rounding
     }
 
-    /// Estimated bound on the distance of the last arc from S = 1, length: what S misses 1 by at its ends, it may miss
-    /// all along, also where the slope is least.
+    /// Estimated bound on the distance of the last arc from S = 1, length: that of its ends.
     pub fn off(&self) -> f64 {
-        let missed = self.here.value.abs() + f64::EPSILON * (self.rounding_before + self.rounding);
-        0.5 * missed / self.here.half_gradient.norm().min(self.curve.half_gradient.norm())
+        let [before, missed] = self.missed;
+        let of_end = missed + f64::EPSILON * self.here.rounding;
+        0.5 * (before / self.curve.half_gradient.norm()).max(of_end / self.here.half_gradient.norm())
     }
 
     /// The next arc. Fails when there is none, and when S ≠ 1 at its end by more than rounding, which is the check that
@@ -122,8 +122,9 @@ impl<'s> Boundary<'s> {
         self.switching = if let Event::Line(i) = event { Some(i) } else { None };
         self.point = arc.to;
         let before = self.here.distance;
-        self.rounding_before = self.here.rounding;
+        let rounding_before = f64::EPSILON * self.here.rounding;
         self.here = self.cross_section.after_step(&self.point, &step);
+        self.missed = [rounding_before, self.here.value.abs()];
         let length = before + self.here.distance;
         self.rounding = self.here.rounding + self.curve.rounding(tau, &arc, &self.here.half_gradient, length);
         if !(self.here.value.abs() <= MISS * f64::EPSILON * self.rounding) {

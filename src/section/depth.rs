@@ -13,16 +13,16 @@ pub(super) fn of(section: &PlaneSection) -> f64 {
     let PlaneSection { shape, branch, rotation, point, .. } = section;
     let x =
         Vector3::from([0, 1, 2].map(|axis| dot(rotation.column(axis).iter().zip(branch.iter().map(|&b| b.into())))));
-    let mut sums = Sums::default();
+    let mut square = DoubleDouble::default();
     if !shape.is_sphere() {
         shape.visit_near(point, 0.0, |i, normal, excess| {
             if excess > 0.0 {
                 let excess = dot(normal.iter().zip(x.iter().copied())) + DoubleDouble::from(-shape.offset(i));
-                sums.add(&normal.map(DoubleDouble::from), excess);
+                square += excess * excess;
             }
         });
     }
-    let s = Weights::precise(shape).value(&sums, &x);
+    let s = Weights::precise(shape).value(&Sums { square, ..Sums::default() }, &x);
     (DoubleDouble::from(1.0) - s).rounded()
 }
 

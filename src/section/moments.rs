@@ -10,7 +10,7 @@
 //! ∫y = (2/3 − A)/z      ∫x² = (A − ∫y)/4      ∫y² = (A − 5∫y)/(4z)
 //! ```
 
-use super::arc::Arc;
+use super::arc::{Arc, filling};
 use super::boundary::Boundary;
 use super::cross_section::CrossSection;
 use super::lines::Line;
@@ -29,12 +29,12 @@ pub(crate) struct Moments {
     pub second: Matrix2<f64>,
 }
 
-/// A part of a boundary, with what the area between it and the origin adds.
+/// A part of a boundary, or of a polygon near it, with what the area between it and the origin adds.
 pub(crate) struct Sector {
     pub moments: Moments,
-    /// The corners of a polygon that holds the part: its ends, and where their tangents meet.
+    /// Its ends, and between them where their tangents meet: it is no longer than the way along them.
     pub corners: [Vector2<f64>; 3],
-    /// Estimated bound on the distance of its end from S = 1, length.
+    /// Estimated bound on its distance from the boundary, length.
     pub off: f64,
 }
 
@@ -58,10 +58,10 @@ impl Moments {
             area: unit * a,
             first: unit * (a * m + y * e),
             second: unit
-                * (a * m * m.transpose()
+                * (a * (m * m.transpose())
                     + y * (mixed + mixed.transpose())
-                    + xx * c * c.transpose()
-                    + yy * e * e.transpose()),
+                    + xx * (c * c.transpose())
+                    + yy * (e * e.transpose())),
         })
     }
 
@@ -70,7 +70,7 @@ impl Moments {
     }
 }
 
-/// Below this square of the tangent the series below is summed: there the recurrence would lose more than two digits.
+/// Below this square of the tangent a series is summed: there the recurrence would lose more than two digits.
 const SMALL: f64 = 0.3;
 
 /// Terms that leave less than ε of it: 0.3³⁰ = 2e-16.
@@ -79,14 +79,13 @@ const TERMS: u32 = 30;
 /// Integrals of 1, y, x² and y² over a segment. The first is Σ aₙ zⁿ with aₙ = 2 (−1)ⁿ/((2n+1)(2n+3)), and the others
 /// follow from the same series begun at its next terms, since each division by z takes off the first.
 fn segment(z: f64) -> [f64; 4] {
+    let a = filling(z);
     let term = |n: u32| f64::from(1 - 2 * (n as i32 % 2)) * 2.0 / f64::from((2 * n + 1) * (2 * n + 3));
-    let [a, b, c] = if z < SMALL {
-        [0, 1, 2].map(|first| (first..first + TERMS).rev().fold(0.0, |sum, n| sum * z + term(n)))
+    let [b, c] = if z < SMALL {
+        [1, 2].map(|first| (first..first + TERMS).rev().fold(0.0, |sum, n| sum * z + term(n)))
     } else {
-        let tangent = z.sqrt();
-        let a = ((1.0 + z) * tangent.atan() - tangent) / (z * tangent);
         let b = (a - term(0)) / z;
-        [a, b, (b - term(1)) / z]
+        [b, (b - term(1)) / z]
     };
     [a, -b, 0.25 * (a + b), 0.25 * (b + 5.0 * c)]
 }

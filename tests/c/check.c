@@ -85,6 +85,10 @@ void check_untouched(const void *object, size_t size, const char *what, const ch
     if (!count(at == size, what, file, line)) printf("was written at byte %zu by a call that failed\n", at);
 }
 
+bool check_has_failed(void) {
+    return failed > 0;
+}
+
 int check_report(void) {
     printf("%u passed, %u failed\n", passed, failed);
     return failed == 0 ? 0 : 1;

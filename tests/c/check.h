@@ -49,6 +49,9 @@ void check_case(const char *format, ...)
 #endif
     ;
 
+/* Whether a check has failed so far. */
+bool check_has_failed(void);
+
 /* Prints "N passed, N failed"; the exit code of the program. */
 int check_report(void);
 

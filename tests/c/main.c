@@ -18,6 +18,8 @@ int main(int count, char **arguments) {
         return check_report();
     }
     test_layout();
+    /* With other structs than the library has, nothing below is safe. */
+    if (check_has_failed()) return check_report();
     test_status();
     test_particle();
     test_query();

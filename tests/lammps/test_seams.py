@@ -7,7 +7,7 @@ import numpy as np
 from scene import SCRIPT, SHEAR, STIFFNESS, TOP, lammps, process, run, shapes, thermo
 from test_walls import floor, write_stl
 
-from potential_particles_lammps.library import OVERLAPPING, Particle, check, library, pose, record
+from potential_particles_lammps.library import OVERLAPPING, Particle, check, library, pose, struct
 from potential_particles_lammps.pictures import frames
 
 YADE = TOP / "yade-glue" / "build" / "python" / "potential_particles"
@@ -31,10 +31,10 @@ def shapes_in(path):
 
 
 def overlaps(particle, its_pose, triangle):
-    found, corners = record("pp_flat_contact"), np.ascontiguousarray(triangle, float)
+    found, corners = struct("pp_flat_contact")(), np.ascontiguousarray(triangle, float)
     check(library().pp_contact_triangle(particle.handle, ctypes.byref(its_pose), ctypes.c_void_p(corners.ctypes.data),
-                                        None, None, ctypes.c_void_p(found.ctypes.data)))
-    return found[0].kind == OVERLAPPING
+                                        None, None, ctypes.byref(found)))
+    return found.kind == OVERLAPPING
 
 
 def test_same_seams_in_yade(folder):

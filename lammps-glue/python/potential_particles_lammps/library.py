@@ -18,18 +18,14 @@ class Pose(ctypes.Structure):
 
 
 @lru_cache(maxsize=None)
-def record_type(name):
-    """The numpy type of a struct whose fields the library tells, such as "pp_contact"."""
+def struct(name):
+    """The struct of a name whose fields the library tells, such as "pp_contact"."""
+    kinds = {"f8": ctypes.c_double, "i4": ctypes.c_int32, "u4": ctypes.c_uint32}
     rows = [row.split() for row in library().pp_struct_fields(name.encode()).decode().splitlines()]
-    sizes = [(field, kind if count == "1" else f"{count}{kind}", int(place)) for field, kind, count, place in rows]
-    names, formats, offsets = zip(*sizes)
-    return np.dtype({"names": names, "formats": formats, "offsets": offsets,
-                     "itemsize": library().pp_struct_size(name.encode())})
-
-
-def record(name):
-    """An array of one struct of zeros, whose fields are attributes."""
-    return np.zeros(1, record_type(name)).view(np.recarray)
+    fields = [(field, kinds[kind] if count == "1" else kinds[kind] * int(count)) for field, kind, count, _ in rows]
+    made = type(name, (ctypes.Structure, ), {"_fields_": fields})
+    assert ctypes.sizeof(made) == library().pp_struct_size(name.encode()), name
+    return made
 
 
 class MassProperties(ctypes.Structure):
@@ -114,17 +110,17 @@ def pose(position, orientation):
 
 
 def detect(a, pose_a, b, pose_b):
-    """The contact of two particles, with default settings and no memory: a record with the fields of pp_contact."""
-    contact = record("pp_contact")
+    """The contact of two particles, with default settings and no memory: a struct pp_contact."""
+    contact = struct("pp_contact")()
     check(library().pp_contact_detect(a.handle, ctypes.byref(pose_a), b.handle, ctypes.byref(pose_b), None, None,
-                                      contact.ctypes.data))
-    return contact[0]
+                                      ctypes.byref(contact)))
+    return contact
 
 
 def detect_plane(a, pose_a, point, normal):
-    """The contact of a particle with a plane: a record with the fields of pp_flat_contact."""
-    contact = record("pp_flat_contact")
+    """The contact of a particle with a plane: a struct pp_flat_contact."""
+    contact = struct("pp_flat_contact")()
     three = ctypes.c_double * 3
     check(library().pp_contact_plane(a.handle, ctypes.byref(pose_a), three(*point), three(*normal), None, None,
-                                     contact.ctypes.data))
-    return contact[0]
+                                     ctypes.byref(contact)))
+    return contact
