@@ -20,7 +20,8 @@ pub struct Equilibrium {
     /// Force on the second body at each corner, contact after contact, in the axes of the scene; empty where nothing
     /// stands.
     pub forces: Vec<Vector3<f64>>,
-    /// Velocity of each body in the mechanism, the fastest at 1; empty in [`stands()`](super::stands) of a scene that does.
+    /// Velocity of each body in the mechanism, the fastest at 1; empty in [`stands()`](super::stands) of a scene that
+    /// does.
     pub mechanism: Vec<Velocity>,
     /// The largest force, or torque over the size of the body, that is left on a body, over the mean load of one.
     pub unbalanced: f64,
