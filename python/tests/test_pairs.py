@@ -391,7 +391,7 @@ class Kept(unittest.TestCase):
             (lambda: pp.Pose((0, 0, 0), (0, 0, 0, 0)), "not a quaternion"),
             (lambda: pp.Pose((0, 0)), "position must be 3 numbers"),
             (lambda: pp.Settings("nearest"), '"midway" or "closest"'),
-            (lambda: pp.Settings(weight_on_a=2), "weight_on_a=2 must lie in"),
+            (lambda: pp.Settings(weight_on_a=2), "weight_on_a=2.0 must lie in"),
             (lambda: pp.Settings(gap_tolerance=float("nan")), "gap_tolerance=NaN"),
             (lambda: cube().mesh(0.0), "mesh tolerance"),
             (lambda: cube().mass_properties(float("nan")), "tolerance=NaN"),

@@ -7,7 +7,7 @@ import numpy as np
 from scene import SCRIPT, SHEAR, STIFFNESS, TOP, lammps, process, run, shapes, thermo
 from test_walls import floor, write_stl
 
-from potential_particles_lammps.library import OVERLAPPING, Particle, check, library, pose, struct
+from potential_particles_lammps.library import OVERLAPPING, Particle, check, detect, detect_plane, library, pose, struct
 from potential_particles_lammps.pictures import frames
 
 YADE = TOP / "yade-glue" / "build" / "python" / "potential_particles"
@@ -35,6 +35,17 @@ def overlaps(particle, its_pose, triangle):
     check(library().pp_contact_triangle(particle.handle, ctypes.byref(its_pose), ctypes.c_void_p(corners.ctypes.data),
                                         None, None, ctypes.byref(found)))
     return found.kind == OVERLAPPING
+
+
+def test_contacts_of_the_library(folder):
+    """Two balls and a floor by ctypes: the fields are those of the C structs."""
+    ball, here, there = Particle(np.empty((0, 4)), 1.0, 1.0, 1.0), pose((0, 0, 0), (1, 0, 0, 0)), pose((0, 0, 1.5),
+                                                                                                       (1, 0, 0, 0))
+    found = detect(ball, here, ball, there)
+    assert found.kind == OVERLAPPING and abs(found.overlap - 0.5) < 1e-10 and abs(found.normal[2] - 1) < 1e-10
+    assert isinstance(found.flags, int) and found.reserved == 0
+    floor_contact = detect_plane(ball, here, (0, 0, -0.75), (0, 0, 1))
+    assert floor_contact.kind == OVERLAPPING and abs(floor_contact.overlap - 0.25) < 1e-10
 
 
 def test_same_seams_in_yade(folder):
