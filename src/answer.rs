@@ -78,6 +78,30 @@ macro_rules! row {
 }
 pub(crate) use row;
 
+/// A comment with the name that another language has in the place of each link.
+pub fn comment_with(comment: &str, name: impl Fn(&str) -> String) -> String {
+    let mut pieces = comment.split("[`");
+    let mut text = pieces.next().unwrap_or_default().to_owned();
+    for piece in pieces {
+        let (link, rest) = piece.split_once("`]").unwrap_or((piece, ""));
+        text += &name(link);
+        // A path in Rust may follow a link.
+        text += rest.strip_prefix('(').and_then(|rest| rest.split_once(')')).map_or(rest, |(_, rest)| rest);
+    }
+    text
+}
+
+/// Whether the fields of a struct of this size leave no gaps: then all its bytes are those of its fields.
+pub(crate) const fn is_full(layout: &[Row], size: usize) -> bool {
+    let (mut sum, mut i) = (0, 0);
+    while i < layout.len() {
+        // The last letter of "f8", "i4", "u4" is the number of bytes.
+        sum += layout[i].2 * (layout[i].1.as_bytes()[1] - b'0') as usize;
+        i += 1;
+    }
+    sum == size
+}
+
 /// Fields of four bytes that are equal where their numbers are.
 macro_rules! words {
     ($($word:ty, $format:literal, |$value:ident| $number:expr);+ $(;)?) => {
@@ -148,13 +172,6 @@ macro_rules! answer {
                     _ => &[],
                 }
             }
-
-            // All bytes are those of fields.
-            const _FULL: () = {
-                let mut sum = 0;
-                $(sum += size_of::<$type>();)+
-                assert!(sum == size_of::<Self>());
-            };
         }
 
         $crate::answer::in_plane! { $name [$($n)?] $($field)+ }
@@ -172,11 +189,11 @@ pub(crate) use answer;
 /// The answer of the plane from that of space: vectors lose their z.
 macro_rules! in_plane {
     ($name:ident [] $($field:ident)+) => {
-        const _: () = $name::_FULL;
+        const _: () = assert!($crate::answer::is_full($name::LAYOUT, size_of::<$name>()));
     };
     ($name:ident [$n:ident] $($field:ident)+) => {
-        const _: () = $name::<3>::_FULL;
-        const _: () = $name::<2>::_FULL;
+        const _: () = assert!($crate::answer::is_full($name::<3>::LAYOUT, size_of::<$name<3>>()));
+        const _: () = assert!($crate::answer::is_full($name::<2>::LAYOUT, size_of::<$name<2>>()));
 
         impl $name<3> {
             /// The same without z.

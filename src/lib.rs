@@ -130,9 +130,11 @@ pub use section::Section;
 pub use settings::{BackEnd, Formulation, Settings, SettingsError};
 pub use surface::surface_mesh::{MeshError, SurfaceMesh};
 
-/// Stages of the solver for benchmarks; no part of the public interface, and changed without notice.
+/// Stages of the solver for benchmarks, and what the wheel and the C header share; no part of the public interface, and
+/// changed without notice.
 #[doc(hidden)]
 pub mod internals {
+    pub use crate::answer::comment_with;
     pub use crate::pair::pair::Pair;
     pub use crate::pair::separation as reject;
     pub use crate::particle::potential;

@@ -1,6 +1,6 @@
 //! Every tolerance and choice of the library, in one place.
 
-use crate::answer::{Field, Row, row, words};
+use crate::answer::{Field, Row, is_full, row, words};
 use std::fmt;
 use thiserror::Error;
 
@@ -74,6 +74,8 @@ macro_rules! settings {
         pub struct Settings {
             $($(#[doc = $doc])* $vis $field: $type,)+
         }
+
+        const _: () = assert!(is_full(Settings::LAYOUT, size_of::<Settings>()));
 
         impl Settings {
             /// What [`Settings::default`] gives.

@@ -1,6 +1,7 @@
 //! The committed C header is the one that cbindgen makes of `src/capi` and of the structs and flags of the library, and
 //! it names this version.
 
+use potential_particles::internals::comment_with;
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 
@@ -27,27 +28,19 @@ fn source(file: &str) -> String {
 
 /// A comment of the library with the names of C in the place of its links.
 fn comment_in_c(line: &str) -> String {
-    let mut pieces = line.split("[`");
-    let mut text = pieces.next().unwrap_or_default().to_owned();
-    for piece in pieces {
-        let (link, rest) = piece.split_once("`]").unwrap_or_else(|| panic!("no end of a link: {line}"));
-        text += &match link.split_once("::") {
-            Some(("Flags", flag)) => format!("PP_FLAG_{flag}"),
-            Some(("Role", body)) => format!("PP_ON_{body}"),
-            Some((_, variant)) => {
-                let apart = |c: char| if c.is_uppercase() { format!("_{c}") } else { c.to_uppercase().to_string() };
-                format!("PP{}", variant.chars().map(apart).collect::<String>())
-            }
-            None if link == "Flags" => "PP_FLAG_... bits".into(),
-            None if link == "Contact" => "struct pp_contact".into(),
-            None if link == "PairState" => "pp_pair_state".into(),
-            None if link == "PatchState" => "struct pp_patch_state".into(),
-            None => panic!("{link}: no name in C"),
-        };
-        // A path in Rust that follows a link.
-        text += rest.strip_prefix('(').and_then(|rest| rest.split_once(')')).map_or(rest, |(_, rest)| rest);
-    }
-    text
+    comment_with(line, |link| match link.split_once("::") {
+        Some(("Flags", flag)) => format!("PP_FLAG_{flag}"),
+        Some(("Role", body)) => format!("PP_ON_{body}"),
+        Some((_, variant)) => {
+            let apart = |c: char| if c.is_uppercase() { format!("_{c}") } else { c.to_uppercase().to_string() };
+            format!("PP{}", variant.chars().map(apart).collect::<String>())
+        }
+        None if link == "Flags" => "PP_FLAG_... bits".into(),
+        None if link == "Contact" => "struct pp_contact".into(),
+        None if link == "PairState" => "pp_pair_state".into(),
+        None if link == "PatchState" => "struct pp_patch_state".into(),
+        None => panic!("{link}: no name in C"),
+    })
 }
 
 /// The structs of the library that C has as they are: file, struct, dimension, name in C.

@@ -8,6 +8,7 @@ use crate::pose::PyPose;
 use crate::records::contact_type;
 use crate::settings::{PySettings, or_default};
 use numpy::PyArray1;
+use potential_particles::internals::comment_with;
 use potential_particles::{ClosestPoint, Contact, Kind, PairState, Role, Section};
 use pyo3::PyClass;
 use pyo3::prelude::*;
@@ -100,23 +101,14 @@ pub(crate) use attributes;
 /// A comment of the library as a docstring: in the place of links the names of flags and of choices.
 pub fn comment_in_python(comment: &str) -> String {
     let lines: Vec<_> = comment.lines().map(str::trim_start).collect();
-    let comment = lines.join("\n");
-    let mut pieces = comment.split("[`");
-    let mut text = pieces.next().unwrap_or_default().to_owned();
-    for piece in pieces {
-        let (link, rest) = piece.split_once("`]").unwrap_or((piece, ""));
-        match link.split_once("::") {
-            Some(("Flags", name)) => text += &format!("{:?}", name.to_lowercase().replace('_', " ")),
-            Some((_, name)) => {
-                let apart = |c: char| if c.is_uppercase() { format!("_{}", c.to_lowercase()) } else { c.to_string() };
-                text += &format!("{:?}", name.chars().map(apart).collect::<String>().trim_start_matches('_'));
-            }
-            None => text += link,
+    comment_with(&lines.join("\n"), |link| match link.split_once("::") {
+        Some(("Flags", name)) => format!("{:?}", name.to_lowercase().replace('_', " ")),
+        Some((_, name)) => {
+            let apart = |c: char| if c.is_uppercase() { format!("_{}", c.to_lowercase()) } else { c.to_string() };
+            format!("{:?}", name.chars().map(apart).collect::<String>().trim_start_matches('_'))
         }
-        // A path in Rust that follows a link.
-        text += rest.strip_prefix("(crate::").and_then(|rest| rest.split_once(')')).map_or(rest, |(_, rest)| rest);
-    }
-    text
+        None => link.into(),
+    })
 }
 
 /// Adds one attribute to a class, with its docstring: a double, or an array of doubles.

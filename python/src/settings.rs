@@ -28,9 +28,8 @@ impl PySettings {
     #[new]
     #[pyo3(signature = (formulation="midway", *, solve_separated=false, **numbers))]
     fn new(formulation: &str, solve_separated: bool, numbers: Option<&Bound<'_, PyDict>>) -> PyResult<Self> {
-        let mut settings = Settings::default()
-            .with_formulation(self::formulation(formulation)?)
-            .with_solve_separated(solve_separated);
+        let mut settings =
+            Settings::default().with_formulation(self::formulation(formulation)?).with_solve_separated(solve_separated);
         for (name, number) in numbers.into_iter().flatten() {
             let name: String = name.extract()?;
             let Some((_, with)) = Settings::NUMBERS.iter().find(|(known, _)| *known == name) else {

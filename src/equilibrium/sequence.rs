@@ -77,7 +77,7 @@ struct State {
 }
 
 /// What a program says.
-enum Said {
+enum Verdict {
     Solved(Solved),
     /// Nothing that counts: the next program has another dilatancy or another κ.
     Again,
@@ -102,11 +102,11 @@ impl<S: Fn(f64, Option<&Solved>) -> Vec<Strength>, F: Fn(f64) -> f64> Sequence<'
             }
             state.halves = false;
             let solved = match self.program(&mut state, programs)? {
-                Said::Solved(solved) => solved,
-                Said::Falls(answer) => return Ok(Ended::Falls(answer)),
-                Said::Again => continue,
+                Verdict::Solved(solved) => solved,
+                Verdict::Falls(answer) => return Ok(Ended::Falls(answer)),
+                Verdict::Again => continue,
             };
-            if let Some(ended) = self.taken(solved, &mut state, programs) {
+            if let Some(ended) = self.accept(solved, &mut state, programs) {
                 return Ok(ended);
             }
         }
@@ -124,7 +124,7 @@ impl<S: Fn(f64, Option<&Solved>) -> Vec<Strength>, F: Fn(f64) -> f64> Sequence<'
     }
 
     /// The next program, and what it says.
-    fn program(&self, state: &mut State, programs: u32) -> Result<Said, EquilibriumError> {
+    fn program(&self, state: &mut State, programs: u32) -> Result<Verdict, EquilibriumError> {
         let now = (self.strengths)(state.dilatancy, state.last.as_ref());
         let near = state.last.as_ref().filter(|_| state.dilatancy < 1.0);
         let weight = |last: &Solved| NEARNESS * (self.strength)(last.factor).min(1.0);
@@ -133,9 +133,9 @@ impl<S: Fn(f64, Option<&Solved>) -> Vec<Strength>, F: Fn(f64) -> f64> Sequence<'
         // A strength factor has a least φ above 0, or none.
         let has_factor = |solved: &Solved| self.goal == Goal::Load || solved.factor > SETTLED;
         match (outcome, state.last.as_ref().filter(|_| self.goal == Goal::Strength)) {
-            (Ok(Outcome::Solved(solved)), _) if has_factor(&solved) => return Ok(Said::Solved(solved)),
+            (Ok(Outcome::Solved(solved)), _) if has_factor(&solved) => return Ok(Verdict::Solved(solved)),
             (Ok(Outcome::Falls(velocities)), _) if programs == 1 => {
-                return self.problem.falls(&velocities, &now, programs).map(Said::Falls);
+                return self.problem.falls(&velocities, &now, programs).map(Verdict::Falls);
             }
             // The strength that the last normal forces give is too small, or, where they are large, so great that φ
             // says nothing: with more dilatancy the normal forces of the program count, too.
@@ -161,11 +161,11 @@ impl<S: Fn(f64, Option<&Solved>) -> Vec<Strength>, F: Fn(f64) -> f64> Sequence<'
             (Ok(Outcome::Unlimited | Outcome::Solved(_)), Some(_)) => state.dilatancy = less(state.dilatancy),
             (Err(error), _) => return Err(error),
         }
-        Ok(Said::Again)
+        Ok(Verdict::Again)
     }
 
     /// Takes the forces of a program for the last ones; the end, if nothing changes any more.
-    fn taken(&self, solved: Solved, state: &mut State, programs: u32) -> Option<Ended> {
+    fn accept(&self, solved: Solved, state: &mut State, programs: u32) -> Option<Ended> {
         let (dilatancy, last) = (state.dilatancy, state.last.take());
         if let Some(last) = last.as_ref().filter(|_| self.goal == Goal::Strength && dilatancy == 1.0) {
             state.bracket[usize::from(solved.factor <= last.factor)] = last.factor;

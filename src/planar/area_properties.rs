@@ -50,12 +50,12 @@ pub(super) fn of(shape: &Shape, tolerance: f64) -> AreaProperties {
 
 /// Of the polygon of an outline; `share`: its tolerance over the bounding radius.
 fn polygon(shape: &Shape, share: f64) -> AreaProperties {
-    let (points, off) = outline(shape, share * shape.bounds.radius);
+    let (points, deviation) = outline(shape, share * shape.bounds.radius);
     let chord = |(from, to): (&Vector2<f64>, &Vector2<f64>)| Sector {
         moments: Moments::triangle(from, to),
         corners: [*from, 0.5 * (from + to), *to],
         // The points are rounded, too.
-        off: off + OF_SUMS * larger(from.norm(), to.norm()),
+        deviation: deviation + OF_SUMS * larger(from.norm(), to.norm()),
     };
     properties(&points.iter().zip(points.iter().cycle().skip(1)).map(chord).collect::<Vec<_>>())
 }
@@ -66,10 +66,10 @@ fn properties(parts: &[Sector]) -> AreaProperties {
     // Lengths are measured in the radii of gyration.
     let root = (second / area).cholesky().and_then(|factor| factor.l().try_inverse());
     let error = root.map_or(f64::INFINITY, |unscaled| {
-        let of_part = |Sector { corners, off, .. }: &Sector| {
+        let of_part = |Sector { corners, deviation, .. }: &Sector| {
             let length = (corners[1] - corners[0]).norm() + (corners[2] - corners[1]).norm();
             let farthest = corners.iter().map(|corner| (unscaled * corner).norm()).fold(0.0, f64::max);
-            off * length * (1.0 + farthest).max(farthest * farthest)
+            deviation * length * (1.0 + farthest).max(farthest * farthest)
         };
         let of_sums = OF_SUMS * (parts.len() as f64).sqrt() * second.trace() / area * unscaled.norm_squared();
         parts.iter().map(of_part).sum::<f64>() / area + of_sums
@@ -80,24 +80,24 @@ fn properties(parts: &[Sector]) -> AreaProperties {
 }
 
 /// A point of the boundary, and the angle of its ray.
-type OnRay = (f64, Vector2<f64>);
+type BoundaryPoint = (f64, Vector2<f64>);
 
 /// A chord, the point of the boundary between its ends, and how far the boundary is from it at most.
 struct Chord {
-    ends: [OnRay; 2],
-    middle: OnRay,
-    off: f64,
+    ends: [BoundaryPoint; 2],
+    middle: BoundaryPoint,
+    deviation: f64,
 }
 
 impl Chord {
-    fn new(ends: [OnRay; 2], on_ray: &impl Fn(f64) -> OnRay) -> Self {
+    fn new(ends: [BoundaryPoint; 2], on_ray: &impl Fn(f64) -> BoundaryPoint) -> Self {
         let [start, end] = ends;
         let middle = on_ray(0.5 * (start.0 + end.0));
         let (chord, beyond) = (end.1 - start.1, middle.1 - start.1);
         let share = chord.dot(&beyond) / chord.norm_squared();
         // The boundary is convex: where it is δ from the chord at a share m, it is nowhere further than δ/min(m, 1−m).
-        let off = chord.perp(&beyond).abs() / (chord.norm() * larger(share.min(1.0 - share), 0.0));
-        Self { ends, middle, off: if off.is_nan() { f64::INFINITY } else { off } }
+        let deviation = chord.perp(&beyond).abs() / (chord.norm() * larger(share.min(1.0 - share), 0.0));
+        Self { ends, middle, deviation: if deviation.is_nan() { f64::INFINITY } else { deviation } }
     }
 
     /// Whether there is a ray between those of its ends.
@@ -116,10 +116,10 @@ pub(super) fn outline(shape: &Shape, tolerance: f64) -> (Vec<Vector2<f64>>, f64)
     };
     let ends: Vec<_> = (0..=PARTS).map(|i| on_ray(TAU * i as f64 / PARTS as f64)).collect();
     let mut left: BinaryHeap<Chord> = ends.windows(2).map(|ends| Chord::new([ends[0], ends[1]], &on_ray)).collect();
-    let (mut done, mut off) = (Vec::new(), 0.0);
+    let (mut done, mut deviation) = (Vec::new(), 0.0);
     while let Some(worst) = left.pop() {
-        if worst.off <= tolerance || left.len() + done.len() >= MOST_POINTS {
-            off = larger(worst.off, off);
+        if worst.deviation <= tolerance || left.len() + done.len() >= MOST_POINTS {
+            deviation = larger(worst.deviation, deviation);
             done.push(worst);
             break;
         }
@@ -128,19 +128,19 @@ pub(super) fn outline(shape: &Shape, tolerance: f64) -> (Vec<Vector2<f64>>, f64)
             left.extend([[start, worst.middle], [worst.middle, end]].map(|ends| Chord::new(ends, &on_ray)));
         } else {
             // Rays that cannot be told apart have no point between them that is further than both.
-            off = larger((worst.ends[1].0 - worst.ends[0].0) * shape.bounds.radius, off);
+            deviation = larger((worst.ends[1].0 - worst.ends[0].0) * shape.bounds.radius, deviation);
             done.push(worst);
         }
     }
     done.extend(left);
     done.sort_by(|a, b| a.ends[0].0.total_cmp(&b.ends[0].0));
-    (done.iter().map(|chord| chord.ends[0].1).collect(), off)
+    (done.iter().map(|chord| chord.ends[0].1).collect(), deviation)
 }
 
 /// Chords are ordered by how far the boundary is from them.
 impl Ord for Chord {
     fn cmp(&self, other: &Self) -> std::cmp::Ordering {
-        self.off.total_cmp(&other.off)
+        self.deviation.total_cmp(&other.deviation)
     }
 }
 

@@ -96,7 +96,7 @@ impl<'s> Boundary<'s> {
     }
 
     /// Estimated bound on the distance of the last arc from S = 1, length: that of its ends.
-    pub fn off(&self) -> f64 {
+    pub fn deviation(&self) -> f64 {
         let [before, missed] = self.missed;
         let of_end = missed + f64::EPSILON * self.here.rounding;
         0.5 * (before / self.curve.half_gradient.norm()).max(of_end / self.here.half_gradient.norm())

@@ -35,7 +35,7 @@ pub(crate) struct Sector {
     /// Its ends, and between them where their tangents meet: it is no longer than the way along them.
     pub corners: [Vector2<f64>; 3],
     /// Estimated bound on its distance from the boundary, length.
-    pub off: f64,
+    pub deviation: f64,
 }
 
 impl Moments {
@@ -100,7 +100,7 @@ pub(crate) fn sectors(shape: &Shape, mut each: impl FnMut(Sector)) -> Result<(),
     while !boundary.is_complete() {
         let arc = boundary.next_arc()?;
         let corners = [arc.from, arc.pole, arc.to];
-        each(Sector { moments: Moments::sector(&arc), corners, off: boundary.off() });
+        each(Sector { moments: Moments::sector(&arc), corners, deviation: boundary.deviation() });
     }
     if boundary.is_closed() { Ok(()) } else { Err(Failure::Inaccurate) }
 }
