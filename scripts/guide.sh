@@ -9,6 +9,6 @@ mkdir -p "$folder"
 scripts/yade.sh -j1 docs/build.py "$folder"
 rm -rf "$folder/.doctrees" "$folder/.buildinfo"
 # Without the C interface, whose comments are plain text for the header.
-RUSTDOCFLAGS="-D warnings" cargo doc --quiet --no-deps --lib --no-default-features --features cone-program,serde
+RUSTDOCFLAGS="-D warnings" cargo doc --quiet --no-deps --lib --no-default-features --features equilibrium,serde
 cp -r "${CARGO_TARGET_DIR:-target}/doc" "$folder/rust"
 echo "The guide: $folder/index.html"

@@ -71,7 +71,7 @@ mod bounds;
 pub mod capi;
 mod contact;
 mod derivative;
-#[cfg(feature = "cone-program")]
+#[cfg(feature = "equilibrium")]
 pub mod equilibrium;
 mod flags;
 mod linalg;

@@ -1,11 +1,11 @@
 //! Limit analysis over the C boundary: one call for a scene of rigid bodies.
 
-#[cfg(feature = "cone-program")]
+#[cfg(feature = "equilibrium")]
 use super::message::Refusal;
 use super::message::{Refused, explain};
 use super::output::{Holds, check_room, fill};
 use super::status::*;
-#[cfg(feature = "cone-program")]
+#[cfg(feature = "equilibrium")]
 use crate::equilibrium::{
     Body, Contact, Equilibrium, EquilibriumError, Flow, Load, Scene, Velocity, load_factor, stands, strength_factor,
 };
@@ -54,31 +54,42 @@ pub struct pp_rigid_contact {
     pub cohesion: f64,
     /// Tensile strength, a stress.
     pub tension: f64,
+    /// Along the normal and across it, force per volume: ratios count alone. 0 and 0: 1 and 1.
+    pub stiffness: [f64; 2],
+    /// Initial stress on the second body: p times the normal where the contact is pressed by p.
+    pub initial: [f64; 3],
 }
 
 /// What pp_equilibrium finds.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default)]
 pub struct pp_equilibrium_result {
-    /// 1: forces in equilibrium exist (for a factor: for any factor). 0: velocities are those of a motion
-    /// that proves that none do.
+    /// 1: the bodies come to rest (for a factor: with any factor). 0: velocities are those of the motion.
     pub stands: u32,
-    /// Number of cone programs.
-    pub programs: u32,
+    /// 1: forces within the strength that hold the bodies exist, where joints open by the tangent of the friction
+    /// angle as they slip.
+    pub may_stand: u32,
     /// The load factor or the factor of safety; 0 for PP_STANDS and where nothing stands.
     pub factor: f64,
+    /// Its bound from above, of joints that open as they slip: infinite without a limit, NaN if it was not found.
+    pub bound: f64,
     /// The largest force, or torque over the size of the body, that is left on a body, over the mean load.
     pub unbalanced: f64,
-    /// The largest friction beyond its strength at a corner, over the mean load.
+    /// The largest friction beyond its strength at a point, over the mean load.
     pub excess: f64,
+    /// The largest force of a contact over the mean load: far above 1 where blocks clamp each other.
+    pub largest: f64,
+    /// Number of matrices that were factorised, or of cone programs.
+    pub solves: u64,
 }
 
-/// Limit analysis of rigid bodies: forces at the corners of their contacts that keep each free body in
-/// equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a the area over the number of corners;
-/// and how the bodies move at the limit.
+/// Limit analysis of rigid bodies on elastic joints: forces at the corners of their contacts that keep each
+/// free body in equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a a share of the area; and how
+/// the bodies move at the limit.
 ///
-/// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 1: joints open by the tangent of the
-/// friction angle as they slip, for a bound by one program; 0: they do not (PP_STANDS asks for neither).
+/// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 0: joints slip along themselves, in
+/// the state that loads lead to from nothing; 1: they open by the tangent of the friction angle as they slip,
+/// which bounds the factor from above.
 /// corners: rows of x, y, z, those of the first contact first; corner_count: of all contacts.
 /// result: receives the answer. forces: receives rows of x, y, z: the force on the second body of its
 /// contact at each corner, 0 where nothing stands (may be NULL). velocities: receives six numbers for each
@@ -137,7 +148,7 @@ unsafe fn fill_if_wanted<V: Default>(to: *mut V, count: usize, rows: Vec<V>) -> 
 /// The result, rows of forces and of velocities.
 type Found = (pp_equilibrium_result, Vec<[f64; 3]>, Vec<[f64; 6]>);
 
-#[cfg(feature = "cone-program")]
+#[cfg(feature = "equilibrium")]
 fn answer(
     question: u32,
     dilatant: u32,
@@ -166,6 +177,8 @@ fn answer(
         let (own, others) = left.split_at_checked(count).ok_or(PP_BAD_INDEX)?;
         left = others;
         Ok(Contact {
+            stiffness: if contact.stiffness == [0.0; 2] { [1.0; 2] } else { contact.stiffness },
+            initial: contact.initial.into(),
             bodies: contact.bodies.map(|index| usize::try_from(index).unwrap_or(usize::MAX)),
             corners: own.iter().map(|&at| at.into()).collect(),
             normal: contact.normal.into(),
@@ -182,28 +195,30 @@ fn answer(
     }
     let scene = Scene { bodies, contacts };
     let found = match question {
-        PP_STANDS => stands(&scene),
+        PP_STANDS => stands(&scene, flow),
         PP_LOAD_FACTOR => load_factor(&scene, flow),
         PP_STRENGTH_FACTOR => strength_factor(&scene, flow),
         _ => return Err(PP_BAD_SETTING.into()),
     }?;
     let six = |Velocity { linear: v, angular: w }: Velocity| [v.x, v.y, v.z, w.x, w.y, w.z];
-    let Equilibrium { stands, factor, forces, mechanism, unbalanced, excess, programs } = found;
-    let head = pp_equilibrium_result { stands: stands.into(), programs, factor, unbalanced, excess };
+    let Equilibrium { factor, bound, forces, mechanism, unbalanced, excess, largest, .. } = found;
+    let (stands, may_stand) = (found.stands.into(), found.may_stand.into());
+    let solves = found.solves.into();
+    let head = pp_equilibrium_result { stands, may_stand, factor, bound, unbalanced, excess, largest, solves };
     Ok((head, forces.into_iter().map(<[f64; 3]>::from).collect(), mechanism.into_iter().map(six).collect()))
 }
 
-#[cfg(feature = "cone-program")]
+#[cfg(feature = "equilibrium")]
 impl Refusal for EquilibriumError {
     fn status(&self) -> pp_status {
         match self {
-            Self::NotConverged { .. } | Self::NotSettled { .. } => PP_SOLVER_FAILED,
+            Self::NotConverged { .. } | Self::Undecided { .. } | Self::NotFound { .. } => PP_SOLVER_FAILED,
             _ => PP_BAD_EQUILIBRIUM,
         }
     }
 }
 
-#[cfg(not(feature = "cone-program"))]
+#[cfg(not(feature = "equilibrium"))]
 fn answer(_: u32, _: u32, _: &[pp_rigid_body], _: &[pp_rigid_contact], _: &[[f64; 3]]) -> Result<Found, Refused> {
     Err(PP_NO_CONE_PROGRAM.into())
 }

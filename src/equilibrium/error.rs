@@ -55,26 +55,35 @@ pub enum EquilibriumError {
     /// Any strength will do.
     #[error("the strength factor is infinite: it stands however small friction and cohesion are")]
     StandsWithoutStrength,
-    /// The solver reached neither a state nor a mechanism. The scene may stand or fall.
+    /// The cone program of the associated answer did not converge. The scene may stand or fall.
     #[error(
-        "the cone program did not converge ({status}): whether it stands is unknown; it may be at its limit, so that \
-         strength_factor or load_factor have an answer, or hold contacts of very different sizes"
+        "the cone program did not converge ({status}): whether any forces can hold the scene is unknown; it may be at \
+         its limit, or hold contacts of very different sizes"
     )]
     NotConverged {
         /// The status of the solver.
         status: String,
     },
-    /// The sequence of programs does not settle.
+    /// Bodies neither came to rest nor went along a mechanism.
     #[error(
-        "the factor did not settle in {programs} programs: it lay between {least} and {most} in the last ten; the \
-         associated bound exists all the same"
+        "bodies neither came to rest nor fell in {solves} steps: {left:.1e} of the forces on a body are left; the scene \
+         is near its limit, or holds contacts or stiffnesses of very different sizes"
     )]
-    NotSettled {
-        /// Number of programs.
-        programs: u32,
-        /// Least factor of the last ten programs.
-        least: f64,
-        /// Largest factor of the last ten programs.
-        most: f64,
+    Undecided {
+        /// Number of factorisations.
+        solves: u32,
+        /// The largest force left on a body, over the sum of the sizes of all on it.
+        left: f64,
+    },
+    /// The path to the limit was lost.
+    #[error(
+        "the path to the limit was lost: the scene stands with the factor {stands}, and with more than {bound} it \
+         falls; contacts or stiffnesses may be of very different sizes"
+    )]
+    NotFound {
+        /// The factor of the last state of rest.
+        stands: f64,
+        /// The associated factor, which no state of equilibrium exceeds; NaN if that is unknown, too.
+        bound: f64,
     },
 }

@@ -42,24 +42,33 @@
 //! | `error` | why a scene has no answer |
 //! | `scene` | bodies, contacts, loads |
 //! | `rock_mass` | the scene of a rock mass |
+//! | `points` | where the forces of a contact act |
+//! | `law` | the law of joints at a point |
 //! | `assembly` | a scene in units of its own |
+//! | `answer` | forces that are judged anew |
 //! | `program` | one cone program |
-//! | `problem` | a scene with its strength, and answers that prove themselves |
-//! | `sequence` | programs in a row, until nothing changes |
+//! | `bound` | the associated answers, by programs |
+//! | `stiffness` | the matrix of elastic joints, and its factors |
+//! | `rest` | states of rest |
+//! | `path` | states of rest up to the limit |
 //! | `problems` | the three questions |
 
+mod answer;
 mod assembly;
+mod bound;
 mod error;
-mod problem;
+mod law;
+mod path;
+mod points;
 mod problems;
 mod program;
+mod rest;
 mod rock_mass;
 mod scene;
-mod sequence;
+mod stiffness;
 
+pub use answer::{ContactForce, Equilibrium};
 pub use error::EquilibriumError;
-pub use problem::Equilibrium;
-pub use problems::{load_factor, stands, strength_factor};
+pub use problems::{Flow, load_factor, stands, strength_factor};
 pub use rock_mass::JointStrength;
 pub use scene::{Body, Contact, Load, Scene, Velocity};
-pub use sequence::Flow;

@@ -1,81 +1,153 @@
 //! The three questions: does it stand, how much more can it bear, how much weaker could its joints be.
 
+use super::answer::{Demand, Equilibrium};
+use super::assembly::Assembly;
+use super::bound;
 use super::error::EquilibriumError;
-use super::problem::{Equilibrium, Problem};
-use super::program::{Goal, Outcome, Solved, Strength};
+use super::path::{DRIFT_DRAG, Limit, OF_DRIFT, limit};
+use super::rest::{Drift, End, FAR, State, Unknown};
 use super::scene::Scene;
-use super::sequence::{Ended, Flow, Sequence};
 
-/// Whether forces exist that keep every body in equilibrium under its dead load: of all such forces, those of the
-/// least norm. If none exist, the velocities of a motion in which the loads do more work than strength can take up.
-///
-/// # Errors
-/// An invalid scene, and a solver that reaches neither forces nor a motion: that does not mean that it falls.
-pub fn stands(scene: &Scene) -> Result<Equilibrium, EquilibriumError> {
-    let problem = Problem::new(scene)?;
-    match problem.at_rest(&problem.strengths)? {
-        Outcome::Solved(solved) => {
-            let answer = problem.answer(&solved, 0.0, 0.0, 1)?;
-            Ok(Equilibrium { mechanism: Vec::new(), ..answer })
-        }
-        Outcome::Falls(velocities) => problem.falls(&velocities, &problem.strengths, 1),
-        // Without a factor there is no limit to miss.
-        Outcome::Unlimited => Err(EquilibriumError::NotConverged { status: "PrimalInfeasible".into() }),
-    }
+/// How a contact opens as it slides.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flow {
+    /// By tan φ times the slip: one convex problem, whose factor no state of equilibrium exceeds. "May stand".
+    Associated,
+    /// Not at all, as Coulomb's friction does, with elastic joints: the state that loads lead to from nothing.
+    NonDilatant,
 }
 
-/// The largest factor λ for which dead + λ live loads can be carried, with the forces and the mechanism there. Below 0
-/// the dead loads alone cannot be.
+/// Strengths above the given one at which a scene that does not stand is tried, each twice the last.
+const STRONGER: i32 = 20;
+
+/// Whether the scene comes to rest under its dead loads, from nothing; with the forces, or the motion. Associated:
+/// whether any forces hold it; with those of the least norm, or a motion that proves that there are none.
 ///
 /// # Errors
-/// As of [`stands()`]; no live load, or a load that can be carried whatever its size.
+/// An invalid scene; `Undecided` or `NotConverged`, which does not mean that it falls.
+pub fn stands(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
+    let assembly = Assembly::new(scene)?;
+    let associated = bound::stands(&assembly);
+    if flow == Flow::Associated {
+        return associated.map(|found| match found.stands {
+            true => Equilibrium { mechanism: Vec::new(), ..found },
+            false => found,
+        });
+    }
+    let mut drift = Drift::new(&assembly)?;
+    let found = match from_nothing(&mut drift, Demand::GIVEN)? {
+        Begin::Rest(state) => standing(&drift, &state),
+        Begin::Falls(motion) => Equilibrium::falling(&assembly, &motion, drift.stiffness.solves),
+    };
+    // Where the program has no answer, forces that were found are one.
+    let may_stand = associated.map_or(true, |found| found.stands) || found.stands;
+    Ok(Equilibrium { may_stand, ..found })
+}
+
+/// The largest factor λ for which dead + λ live loads can be carried, with the forces and the mechanism there. The dead
+/// loads come first, from nothing, then the live loads grow.
+///
+/// # Errors
+/// As of [`stands()`]; no live load, or a load that can be carried whatever its size; `NotFound`.
 pub fn load_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
-    let problem = Problem::new(scene)?;
-    if problem.assembly.live.iter().all(|load| *load == 0.0) {
+    let assembly = Assembly::new(scene)?;
+    if assembly.live.iter().all(|load| *load == 0.0) {
         return Err(EquilibriumError::NoLiveLoad);
     }
-    // With forces of the last program n̄: |t| ≤ c a + (1 − α) μ n̄ + α μ n.
-    let strengths = |dilatancy: f64, last: Option<&Solved>| -> Vec<Strength> {
-        let held = |(given, i): (&Strength, usize)| {
-            let normal = last.map_or(0.0, |last| last.forces[i][0].max(0.0));
-            let base = given.base + (1.0 - dilatancy) * given.slope * normal;
-            Strength { slope: dilatancy * given.slope, base, ..*given }
-        };
-        problem.strengths.iter().zip(0..).map(held).collect()
-    };
-    let unlimited = EquilibriumError::Unlimited;
-    let sequence = Sequence { problem: &problem, goal: Goal::Load, flow, unlimited, strengths, strength: |_| 1.0 };
-    match sequence.run(1.0)? {
-        Ended::Settled(solved, excess, programs) => problem.answer(&solved, solved.factor, excess, programs),
-        Ended::Falls(answer) => Ok(answer),
+    let associated = bound::load(&assembly);
+    if flow == Flow::Associated {
+        return associated;
     }
+    let mut drift = Drift::new(&assembly)?;
+    let start = match from_nothing(&mut drift, Demand::GIVEN)? {
+        Begin::Rest(state) => state,
+        Begin::Falls(motion) => return fallen(&drift, &motion, associated),
+    };
+    at_limit(&mut drift, start, Unknown::Load, associated, |scaled| assembly.live_factor(scaled))
 }
 
 /// The factor of safety F: tan φ and c over F are the least with which the scene stands under its dead loads; with the
-/// forces and the mechanism there.
+/// forces and the mechanism there. The loads come first, from nothing, with the given strength or with the least of its
+/// doubles that holds the scene; then the strength falls.
 ///
 /// # Errors
-/// As of [`stands()`]; a scene that needs no strength.
+/// As of [`stands()`]; a scene that needs no strength; `NotFound`.
 pub fn strength_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
-    let problem = Problem::new(scene)?;
-    // With κ and forces of the last program: |t| ≤ α κ (c a + μ n) + (φ − α κ) (c a + μ n̄). At the end φ = κ and
-    // n = n̄. Before the first program n is unknown: strength is the same at all corners.
-    let strengths = |dilatancy: f64, last: Option<&Solved>| -> Vec<Strength> {
-        let reduced = |(given, i): (&Strength, usize)| {
-            let (normal, kappa) = last.map_or((1.0, 0.0), |last| (last.forces[i][0].max(0.0), last.factor));
-            let slope = dilatancy * kappa * given.slope;
-            Strength { slope, base: -slope * normal, growth: given.base + given.slope * normal, ..*given }
-        };
-        problem.strengths.iter().zip(0..).map(reduced).collect()
-    };
-    let unlimited = EquilibriumError::StandsWithoutStrength;
-    let strength = |factor| factor;
-    let sequence = Sequence { problem: &problem, goal: Goal::Strength, flow, unlimited, strengths, strength };
-    match sequence.run(0.0)? {
-        Ended::Settled(solved, excess, programs) => {
-            let answer = problem.answer(&solved, 0.0, excess, programs)?;
-            Ok(Equilibrium { factor: 1.0 / solved.factor, ..answer })
-        }
-        Ended::Falls(answer) => Ok(answer),
+    let assembly = Assembly::new(scene)?;
+    let associated = bound::strength(&assembly);
+    if flow == Flow::Associated {
+        return associated;
     }
+    let mut drift = Drift::new(&assembly)?;
+    let mut motion = Vec::new();
+    for doubled in 0..STRONGER {
+        match from_nothing(&mut drift, Demand { live: 0.0, strength: 2.0_f64.powi(doubled) })? {
+            Begin::Rest(start) => {
+                return at_limit(&mut drift, start, Unknown::Strength, associated, |part| 1.0 / part);
+            }
+            Begin::Falls(found) if motion.is_empty() => motion = found,
+            Begin::Falls(_) => {}
+        }
+    }
+    fallen(&drift, &motion, associated)
+}
+
+enum Begin {
+    Rest(State),
+    /// The displacements along which bodies go.
+    Falls(Vec<f64>),
+}
+
+/// The state that the loads lead to from nothing.
+fn from_nothing(drift: &mut Drift, at: Demand) -> Result<Begin, EquilibriumError> {
+    let mut state = State { v: vec![0.0; drift.assembly.dead.len()], at };
+    match drift.settle(&mut state, Unknown::Displacements, &[], DRIFT_DRAG, (OF_DRIFT, FAR)) {
+        End::Rest => Ok(Begin::Rest(state)),
+        End::Gone => Ok(Begin::Falls(state.v)),
+        End::Undecided => {
+            Err(EquilibriumError::Undecided { solves: drift.stiffness.solves, left: drift.largest_left(&state) })
+        }
+    }
+}
+
+fn standing(drift: &Drift, state: &State) -> Equilibrium {
+    Equilibrium::standing(drift.assembly, &drift.forces(state), state.at, drift.stiffness.solves)
+}
+
+/// The answer of a scene that stands with no factor, with what is known of its associated one.
+fn fallen(
+    drift: &Drift,
+    motion: &[f64],
+    associated: Result<Equilibrium, EquilibriumError>,
+) -> Result<Equilibrium, EquilibriumError> {
+    let may_stand = associated.as_ref().map_or(true, |found| found.stands);
+    let found = Equilibrium::falling(drift.assembly, motion, drift.stiffness.solves);
+    Ok(Equilibrium { may_stand, bound: bound_of(&associated), ..found })
+}
+
+fn bound_of(associated: &Result<Equilibrium, EquilibriumError>) -> f64 {
+    match associated {
+        Ok(found) => found.bound,
+        Err(EquilibriumError::Unlimited | EquilibriumError::StandsWithoutStrength) => f64::INFINITY,
+        Err(_) => f64::NAN,
+    }
+}
+
+/// The answer at the end of the path from a state of rest.
+fn at_limit(
+    drift: &mut Drift,
+    start: State,
+    unknown: Unknown,
+    associated: Result<Equilibrium, EquilibriumError>,
+    factor: impl Fn(f64) -> f64,
+) -> Result<Equilibrium, EquilibriumError> {
+    let bound = bound_of(&associated);
+    let Limit { parameter, state, mechanism } = limit(drift, start, unknown).map_err(|error| match error {
+        EquilibriumError::NotFound { stands, .. } => EquilibriumError::NotFound { stands: factor(stands), bound },
+        // A path without end is one only if no bound ends it.
+        _ if bound.is_finite() => EquilibriumError::NotFound { stands: bound, bound },
+        other => other,
+    })?;
+    let mechanism = drift.assembly.velocities(&mechanism);
+    Ok(Equilibrium { factor: factor(parameter), bound, mechanism, ..standing(drift, &state) })
 }

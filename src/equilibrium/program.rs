@@ -1,25 +1,26 @@
-//! One cone program, solved by clarabel.
+//! One cone program of associated flow, solved by clarabel.
 //!
-//! The unknowns are the velocities v of the free bodies; the forces at the corners are the multipliers of its cones.
-//! With u the velocity of the second body relative to the first at a corner, u_n along the normal and u_t across it:
+//! The unknowns are the velocities v of the free bodies; the forces at the points are the multipliers of its cones. With
+//! u the velocity of the second body relative to the first at a point, u_n along the normal and u_t across it:
 //!
 //! ```text
-//! minimise    −w·v + Σ (C y + T (u_n − m y)) + ε Σ (½ |q|² + f̄·q)     over v, y, q
-//! subject to  w'·v − Σ C' y = 1                                       (not in the question whether it stands)
-//!             |u_t + ε q_t| ≤ y,  m y ≤ u_n + ε q_n                   at each corner
+//! minimise    −w·v + Σ (C y + T (u_n − m y)) + Σ ½ |q|²    over v, y, q  (q in the question whether it stands alone)
+//! subject to  w'·v − Σ C' y = 1                            (not in that question)
+//!             |u_t + q_t| ≤ y,  m y ≤ u_n + q_n            at each point
 //! multipliers of the cones: the force f on the second body, |t| ≤ C + φ C' + m n,  n ≥ −T
 //! ```
 //!
 //! Optimality of v is E f + w + φ w' = 0, the equilibrium of all bodies, with φ the multiplier of the normalisation:
-//! the largest φ or, with the signs of its row turned, the least. Optimality of q is f = f̄ + q: the forces nearest to
-//! f̄, with the weight ε. The program has 6 unknowns a body, where the one in the forces has 3 a corner, and
-//! eliminating its cones leaves a matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the row of n adds
-//! nothing: then y = (u_n + ε q_n)/m.
+//! the largest φ or, with the signs of its row turned, the least. Optimality of q is f = q: the forces of the least norm.
+//! The program has 6 unknowns a body, where the one in the forces has 3 a point, and eliminating its cones leaves a
+//! matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the row of n adds nothing: then y = (u_n + q_n)/m.
+//! Points without cohesion and tension that are no corners add nothing and are left out.
 
-use super::assembly::{Assembly, Corner};
+use super::assembly::{Assembly, Joint, Point};
 use super::error::EquilibriumError;
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultInfo, DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
+use nalgebra::Vector3;
 
 /// Accuracy of φ that a program has at best.
 pub(super) const BEST: f64 = 1e-10;
@@ -38,9 +39,9 @@ const STALLED: u32 = 8;
 /// A strength below this part of the unit of force is none: no cone is that thin beside the tolerance.
 const NO_STRENGTH: f64 = 1e-12;
 
-/// Strength of a corner: |t| ≤ base + φ growth + slope n, n ≥ −tension, units of force.
+/// Strength of a point: |t| ≤ base + φ growth + slope n, n ≥ −tension, units of force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Strength {
+pub(super) struct Cone {
     pub slope: f64,
     pub base: f64,
     pub growth: f64,
@@ -58,14 +59,6 @@ pub(super) enum Goal {
     Strength,
 }
 
-/// Forces that the solution is to be near to: ½ ε Σ |f − f̄|² is added to −φ, or to φ where the least is asked for.
-pub(super) struct Near<'a> {
-    /// ε, over units of force.
-    pub weight: f64,
-    /// f̄, in the axes of the corners.
-    pub forces: &'a [[f64; 3]],
-}
-
 /// What a program says.
 pub(super) enum Outcome {
     Solved(Solved),
@@ -79,13 +72,13 @@ pub(super) enum Outcome {
 pub(super) struct Solved {
     /// φ.
     pub factor: f64,
-    /// (n, t₁, t₂) at each corner, units of force.
-    pub forces: Vec<[f64; 3]>,
+    /// (n, t₁, t₂) at each point, units of force.
+    pub forces: Vec<Vector3<f64>>,
     /// Scaled velocities.
     pub velocities: Vec<f64>,
 }
 
-/// How a corner stands in the program: its first row, or none.
+/// How a point stands in the program: its first row, or none.
 enum Rows {
     None,
     /// u_n ≥ 0.
@@ -106,7 +99,7 @@ struct Program {
     cost: Vec<f64>,
     /// Diagonal of the quadratic form.
     squares: Vec<(usize, f64)>,
-    /// Of each corner.
+    /// Of each point.
     places: Vec<Rows>,
 }
 
@@ -116,9 +109,8 @@ struct Program {
 /// `NotConverged`.
 pub(super) fn solve(
     assembly: &Assembly,
-    strengths: &[Strength],
+    strengths: &[Cone],
     goal: Goal,
-    near: Option<Near>,
 ) -> Result<Outcome, EquilibriumError> {
     let free = assembly.dead.len();
     let mut program = Program { cost: assembly.dead.iter().map(|load| -load).collect(), ..Program::default() };
@@ -128,9 +120,8 @@ pub(super) fn solve(
     if goal == Goal::Load {
         normalisation.extend(assembly.live.iter().enumerate().map(|(column, load)| (column, *load)));
     }
-    for (corner, strength) in assembly.corners.iter().zip(strengths) {
-        let near = near.as_ref().map(|near| (near.weight, near.forces[program.places.len()]));
-        program.corner(corner, strength, near, |y| normalisation.push((y, -strength.growth)));
+    for (place, strength) in assembly.each_point().zip(strengths) {
+        program.point(place, strength, goal == Goal::Rest, |y| normalisation.push((y, -strength.growth)));
     }
     if goal != Goal::Rest {
         program.row(normalisation.into_iter().map(|(column, value)| (column, sign * value)), -1.0);
@@ -155,47 +146,47 @@ impl Program {
         self.cost.len() - 1
     }
 
-    /// The unknown q of ½ ε q² + ε f̄ q.
-    fn pulled(&mut self, weight: f64, force: f64) -> usize {
-        let column = self.unknown(weight * force);
-        self.squares.push((column, weight));
+    /// The unknown q of ½ q² + f q.
+    fn pulled(&mut self, force: f64) -> usize {
+        let column = self.unknown(force);
+        self.squares.push((column, 1.0));
         column
     }
 
-    fn corner(
+    fn point(
         &mut self,
-        corner: &Corner,
-        strength: &Strength,
-        near: Option<(f64, [f64; 3])>,
+        (joint, point): (&Joint, &Point),
+        strength: &Cone,
+        is_pulled: bool,
         grows: impl FnOnce(usize),
     ) {
-        let Strength { slope, base, growth, tension } = *strength;
-        if !corner.counts() {
+        let Cone { slope, base, growth, tension } = *strength;
+        if !point.counts() {
             return self.places.push(Rows::None);
         }
         let is_smooth = slope <= 0.0 && base <= NO_STRENGTH && growth <= NO_STRENGTH;
         let is_cone = slope > 0.0 && growth == 0.0 && tension * slope >= base;
         // The multiplier of the normal's row is n + shift: its cone has its apex at n = -shift.
         let shift = if is_cone { base / slope } else { tension };
-        // Columns of q in the order of the frame: ε q is p, so that f = f̄ + q.
-        let q = near.map(|(weight, [n, t, s])| [n + shift, t, s].map(|part| (self.pulled(weight, part), weight)));
+        // Columns of q in the order of the frame.
+        let q = is_pulled.then(|| [shift, 0.0, 0.0].map(|part| self.pulled(part)));
         let along = |axis: usize, factor: f64| {
-            let of_bodies = corner.relative(axis).map(|(column, value)| (column, factor * value));
+            let of_bodies = joint.relative(point, axis).map(|(column, value)| (column, factor * value));
             let mut entries: Vec<(usize, f64)> = of_bodies.collect();
             if let Some(columns) = q {
-                entries.push((columns[axis].0, factor * columns[axis].1));
+                entries.push((columns[axis], factor));
             }
             entries
         };
         let first = self.right.len();
         if is_smooth {
-            corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
+            joint.relative(point, 0).for_each(|(column, value)| self.cost[column] += tension * value);
             self.row(along(0, 1.0), 0.0);
             self.cones.push(SupportedConeT::NonnegativeConeT(1));
             return self.places.push(Rows::Smooth(first));
         }
         if is_cone {
-            corner.relative(0).for_each(|(column, value)| self.cost[column] += shift * value);
+            joint.relative(point, 0).for_each(|(column, value)| self.cost[column] += shift * value);
             self.row(along(0, 1.0), 0.0);
             self.row(along(1, slope), 0.0);
             self.row(along(2, slope), 0.0);
@@ -204,7 +195,7 @@ impl Program {
         }
         let y = self.unknown(base - tension * slope);
         grows(y);
-        corner.relative(0).for_each(|(column, value)| self.cost[column] += tension * value);
+        joint.relative(point, 0).for_each(|(column, value)| self.cost[column] += tension * value);
         self.row([(y, 1.0)], 0.0);
         self.row(along(1, 1.0), 0.0);
         self.row(along(2, 1.0), 0.0);
@@ -216,7 +207,7 @@ impl Program {
         self.places.push(Rows::Cut(first, first + 3));
     }
 
-    fn run(self, strengths: &[Strength], goal: Goal, free: usize, sign: f64) -> Result<Outcome, EquilibriumError> {
+    fn run(self, strengths: &[Cone], goal: Goal, free: usize, sign: f64) -> Result<Outcome, EquilibriumError> {
         let count = self.cost.len();
         let matrix = CscMatrix::new_from_triplets(self.right.len(), count, self.rows, self.columns, self.values);
         let (at, of): (Vec<usize>, Vec<f64>) = self.squares.into_iter().unzip();
@@ -269,14 +260,14 @@ impl Program {
             SolverStatus::PrimalInfeasible => return Ok(Outcome::Unlimited),
             status => return Err(failed(format!("{status:?}"))),
         }
-        let force = |(place, strength): (&Rows, &Strength)| {
+        let force = |(place, strength): (&Rows, &Cone)| {
             let z = |row: usize| solution.z[row];
-            let Strength { slope, base, tension, .. } = *strength;
+            let Cone { slope, base, tension, .. } = *strength;
             match *place {
-                Rows::None => [0.0; 3],
-                Rows::Smooth(row) => [z(row) - tension, 0.0, 0.0],
-                Rows::Cone(row) => [z(row) - base / slope, slope * z(row + 1), slope * z(row + 2)],
-                Rows::Cut(row, own) => [z(own) - tension, z(row + 1), z(row + 2)],
+                Rows::None => Vector3::zeros(),
+                Rows::Smooth(row) => Vector3::new(z(row) - tension, 0.0, 0.0),
+                Rows::Cone(row) => Vector3::new(z(row) - base / slope, slope * z(row + 1), slope * z(row + 2)),
+                Rows::Cut(row, own) => Vector3::new(z(own) - tension, z(row + 1), z(row + 2)),
             }
         };
         let forces: Vec<_> = self.places.iter().zip(strengths).map(force).collect();

@@ -35,8 +35,8 @@ impl Scene {
             let bodies = interface.faces.map(|[block, _]| block);
             let [block, face] = interface.faces[0];
             let normal = mass.blocks[block].faces[face].plane.normal;
-            let area = interface.area;
-            Contact { bodies, corners: interface.corners, normal, area, friction, cohesion, tension }
+            let (area, corners) = (interface.area, interface.corners);
+            Contact { area, cohesion, tension, ..Contact::new(bodies, corners, normal, friction) }
         };
         let bodies = mass.blocks.iter().enumerate().map(body).collect();
         Self { bodies, contacts: mass.interfaces().into_iter().map(contact).collect() }

@@ -67,21 +67,38 @@ pub struct Contact {
     pub cohesion: f64,
     /// Tensile strength, a stress.
     pub tension: f64,
+    /// Stiffness k_n along the normal and k_t across it, force per volume. Displacements are small, so that only
+    /// k_t/k_n and the ratios of contacts count.
+    pub stiffness: [f64; 2],
+    /// Initial stress on the second body, before any load: p times the normal where the contact is pressed by p.
+    pub initial: Vector3<f64>,
 }
 
 impl Contact {
-    /// A contact with friction alone. The area is that of the convex polygon of the corners, in whatever order.
+    /// A contact with friction alone, k_t = k_n and no initial stress. The area is that of the convex polygon of the
+    /// corners, in whatever order.
     pub fn new(bodies: [usize; 2], corners: Vec<Vector3<f64>>, normal: Vector3<f64>, friction: f64) -> Self {
-        let middle = middle(&corners);
-        let across = normal.cross(&Vector3::ith(normal.iamin(), 1.0));
-        let (across, aside) = (normal.norm() * across, normal.cross(&across));
-        let angle = |at: &Vector3<f64>| aside.dot(&(at - middle)).atan2(across.dot(&(at - middle)));
-        let mut around = corners.clone();
-        around.sort_by(|a, b| angle(a).total_cmp(&angle(b)));
-        let doubled: Vector3<f64> =
-            around.windows(2).map(|pair| (pair[0] - around[0]).cross(&(pair[1] - around[0]))).sum();
-        let area = 0.5 * doubled.norm();
-        Self { bodies, corners, normal, area, friction, cohesion: 0.0, tension: 0.0 }
+        let initial = Vector3::zeros();
+        let (area, cohesion, tension, stiffness) = (0.0, 0.0, 0.0, [1.0; 2]);
+        let made = Self { bodies, corners, normal, area, friction, cohesion, tension, stiffness, initial };
+        let order = made.around().0;
+        let from = |i: usize| made.corners[order[i]] - made.corners[order[0]];
+        let doubled: Vector3<f64> = (1..order.len()).map(|i| from(i - 1).cross(&from(i))).sum();
+        Self { area: 0.5 * doubled.norm(), ..made }
+    }
+
+    /// The corners in their order about the normal, by index, and their mean.
+    pub(super) fn around(&self) -> (Vec<usize>, Vector3<f64>) {
+        let middle = middle(&self.corners);
+        let across = self.normal.cross(&Vector3::ith(self.normal.iamin(), 1.0));
+        let (across, aside) = (self.normal.norm() * across, self.normal.cross(&across));
+        let angle = |i: &usize| {
+            let arm = self.corners[*i] - middle;
+            aside.dot(&arm).atan2(across.dot(&arm))
+        };
+        let mut order: Vec<usize> = (0..self.corners.len()).collect();
+        order.sort_by(|i, j| angle(i).total_cmp(&angle(j)));
+        (order, middle)
     }
 
     /// The largest distance of a corner from the plane across the normal, over that from the middle of the corners; 0
@@ -108,6 +125,10 @@ const MOST_LEAN: f64 = 0.1;
 /// Polygons below this part of their bodies, or of their distance from the origin, are points: the rounding of corners
 /// decides how they lean.
 const A_POINT: f64 = 1e-6;
+
+/// Coefficients of friction above are refused: their cones are half-spaces to rounding.
+const MOST_FRICTION: f64 = 1e6;
+const MOST_FRICTION_SAID: &str = "a coefficient up to 1e6: tan of the angle";
 
 /// Bodies and their contacts.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -164,6 +185,12 @@ impl Scene {
             ] {
                 check(name, value, value >= 0.0, "0 or above, and finite")?;
             }
+            check("friction", contact.friction, contact.friction <= MOST_FRICTION, MOST_FRICTION_SAID)?;
+            for (name, value) in ["normal stiffness", "shear stiffness"].into_iter().zip(contact.stiffness) {
+                check(name, value, value > 0.0, "above 0, and finite")?;
+            }
+            let initial = contact.initial.norm();
+            check("initial stress", initial, true, "finite")?;
         }
         for (index, body) in self.bodies.iter().enumerate() {
             for (name, v) in [
@@ -173,9 +200,10 @@ impl Scene {
                 ("live force", body.live.force),
                 ("live torque", body.live.torque),
             ] {
-                let value = v.sum();
+                let value = v.norm();
                 if !value.is_finite() {
-                    return Err(EquilibriumError::OutOfRange { name, of: "body", index, value, range: "finite" });
+                    let range = "finite, and below 1e150";
+                    return Err(EquilibriumError::OutOfRange { name, of: "body", index, value, range });
                 }
             }
         }

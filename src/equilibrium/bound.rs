@@ -1,0 +1,183 @@
+//! The associated answer: the largest factor of all states in which joints open by tan φ times their slip. It is a
+//! convex problem, and no state of equilibrium exceeds it.
+
+use super::answer::{Demand, Equilibrium};
+use super::assembly::Assembly;
+use super::error::EquilibriumError;
+use super::program::{Cone, Goal, Outcome, Solved, solve};
+use nalgebra::Vector3;
+
+/// A strength factor has settled if it changes by no more than this part.
+const SETTLED: f64 = 1e-7;
+/// The largest friction beyond its strength that a program may leave, over the mean load of a body; and the smallest
+/// part of the strength by which a bracket is halved.
+const EXCESS: f64 = 1e-5;
+/// Largest force that may stay unbalanced on a body, over the largest force.
+const BALANCED: f64 = 1e-6;
+/// From one strength to the next where a bracket has one end alone.
+const STRIDE: f64 = 5.0;
+/// Programs after which each halves the bracket, and most programs.
+const HALVING: u32 = 30;
+const MOST: u32 = 100;
+
+/// With this part of the strength: whether any forces hold all bodies, those of the least norm or a motion.
+///
+/// # Errors
+/// `NotConverged`.
+pub(super) fn rest(assembly: &Assembly, part: f64) -> Result<Outcome, EquilibriumError> {
+    let cone = |(_, point): (_, &super::assembly::Point)| {
+        let of = &point.strength;
+        Cone { slope: part * of.friction, base: part * of.cohesion, growth: 0.0, tension: of.tension }
+    };
+    solve(assembly, &assembly.each_point().map(cone).collect::<Vec<_>>(), Goal::Rest)
+}
+
+/// Whether any forces hold all bodies.
+///
+/// # Errors
+/// `NotConverged`.
+pub(super) fn stands(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
+    match rest(assembly, 1.0)? {
+        Outcome::Solved(solved) => answer(assembly, &solved, Demand::GIVEN, 0.0, 1),
+        Outcome::Falls(velocities) => falls(assembly, &velocities, 1.0, 1),
+        // Without a factor there is no limit to miss.
+        Outcome::Unlimited => Err(EquilibriumError::NotConverged { status: "PrimalInfeasible".into() }),
+    }
+}
+
+/// The largest factor on the live loads.
+///
+/// # Errors
+/// `NotConverged`, `Unlimited`.
+pub(super) fn load(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
+    let cone = |(_, point): (_, &super::assembly::Point)| {
+        let of = &point.strength;
+        Cone { slope: of.friction, base: of.cohesion, growth: 0.0, tension: of.tension }
+    };
+    match solve(assembly, &assembly.each_point().map(cone).collect::<Vec<_>>(), Goal::Load)? {
+        Outcome::Solved(solved) => {
+            let at = Demand { live: solved.factor, strength: 1.0 };
+            answer(assembly, &solved, at, assembly.live_factor(solved.factor), 1)
+        }
+        Outcome::Falls(velocities) => falls(assembly, &velocities, 1.0, 1),
+        Outcome::Unlimited => Err(EquilibriumError::Unlimited),
+    }
+}
+
+/// The factor of safety. With κ and forces of the last program, |t| ≤ κ (C + μ n) + (φ − κ)(C + μ n̄): the least φ is
+/// the next κ, and at the end φ = κ. A scene stands at κ if and only if φ ≤ κ, or φ has no least value: the factor lies
+/// between the largest κ with which it does not stand and the least with which it does.
+///
+/// # Errors
+/// `NotConverged`, `StandsWithoutStrength`.
+pub(super) fn strength(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
+    // Before the first program n is unknown: strength is the same at all points.
+    let mut forces = vec![Vector3::x(); assembly.points.len()];
+    let (mut kappa, mut bracket) = (0.0, [0.0, f64::INFINITY]);
+    for programs in 1..=MOST {
+        let cone = |((_, point), force): ((_, &super::assembly::Point), &Vector3<f64>)| {
+            let (of, normal) = (&point.strength, force.x.max(-point.strength.tension));
+            let (slope, growth) = (kappa * of.friction, of.cohesion + of.friction * normal);
+            Cone { slope, base: kappa * of.cohesion - kappa * growth, growth, tension: of.tension }
+        };
+        let cones: Vec<Cone> = assembly.each_point().zip(&forces).map(cone).collect();
+        let mut halves = programs > HALVING;
+        match solve(assembly, &cones, Goal::Strength) {
+            Ok(Outcome::Solved(solved)) if solved.factor > SETTLED => {
+                if kappa > 0.0 {
+                    bracket[usize::from(solved.factor <= kappa)] = kappa;
+                }
+                let at = Demand { live: 0.0, strength: solved.factor };
+                let found = Equilibrium::standing(assembly, &solved.forces, at, programs);
+                if (solved.factor - kappa).abs() <= SETTLED * solved.factor && found.excess <= EXCESS {
+                    return answer(assembly, &solved, at, 1.0 / solved.factor, programs);
+                }
+                // Far below the limit φ says little: forces that stand with it may be of any size.
+                let most = if bracket[0] > 0.0 { STRIDE * STRIDE * kappa } else { f64::INFINITY };
+                (kappa, forces) = (solved.factor.min(most), solved.forces);
+                halves |= kappa >= bracket[1];
+            }
+            Ok(Outcome::Falls(velocities)) if kappa == 0.0 => {
+                // Where strength may grow as it likes the motion does not slide at all.
+                return falls(assembly, &velocities, 0.0, programs);
+            }
+            Ok(Outcome::Falls(_)) => (bracket[0], halves) = (kappa, true),
+            Ok(_) if kappa == 0.0 => return Err(EquilibriumError::StandsWithoutStrength),
+            Err(error) if kappa == 0.0 => return Err(error),
+            // Friction of this κ clamps blocks with forces of any size, or this κ is too near to that for clarabel:
+            // forces of the least norm are found there, too. If they are not, it counts as too weak.
+            unknown => {
+                let stands = unknown.is_ok() || matches!(rest(assembly, kappa), Ok(Outcome::Solved(_)));
+                (bracket[usize::from(stands)], halves) = (kappa, true);
+            }
+        }
+        if halves {
+            match inside(bracket) {
+                Some(next) => kappa = next,
+                None => return clamped(assembly, bracket[1], programs),
+            }
+        }
+    }
+    Err(EquilibriumError::NotFound { stands: 1.0 / bracket[1], bound: 1.0 / bracket[0] })
+}
+
+/// The state with this part κ of the strength, below which forces that clamp blocks grow without bound.
+fn clamped(assembly: &Assembly, kappa: f64, programs: u32) -> Result<Equilibrium, EquilibriumError> {
+    if kappa <= SETTLED {
+        return Err(EquilibriumError::StandsWithoutStrength);
+    }
+    // A little more strength, until the least forces are small enough to be found.
+    for margin in [1.0, 10.0, 100.0].map(|of| of * EXCESS) {
+        let kappa = kappa * (1.0 + margin);
+        if let Ok(Outcome::Solved(solved)) = rest(assembly, kappa) {
+            return answer(assembly, &solved, Demand { live: 0.0, strength: kappa }, 1.0 / kappa, programs);
+        }
+    }
+    Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() })
+}
+
+/// A κ inside the bracket; `None` once its ends agree.
+fn inside([low, high]: [f64; 2]) -> Option<f64> {
+    let is_closed = high - low <= EXCESS * high || high <= SETTLED;
+    let between = || match (low > 0.0, high.is_finite()) {
+        (true, true) => (low * high).sqrt(),
+        (true, false) => low * STRIDE,
+        _ => high / STRIDE,
+    };
+    (!is_closed).then(between)
+}
+
+/// Forces of a program, if they are in equilibrium to what is promised.
+fn answer(
+    assembly: &Assembly,
+    solved: &Solved,
+    at: Demand,
+    factor: f64,
+    programs: u32,
+) -> Result<Equilibrium, EquilibriumError> {
+    let found = Equilibrium::standing(assembly, &solved.forces, at, programs);
+    let largest = solved.forces.iter().map(Vector3::amax).fold(1.0, f64::max);
+    if !(found.unbalanced <= BALANCED * largest) {
+        let status = format!("{:.1e} of the mean load stays unbalanced", found.unbalanced);
+        return Err(EquilibriumError::NotConverged { status });
+    }
+    Ok(Equilibrium { factor, bound: factor, mechanism: assembly.velocities(&solved.velocities), ..found })
+}
+
+/// A motion, if it is a proof: the power of the loads exceeds what strength takes up, and what its own rounding could
+/// resist if all loads bore on one point. Without a part of the strength, it may not slide.
+fn falls(assembly: &Assembly, velocities: &[f64], part: f64, programs: u32) -> Result<Equilibrium, EquilibriumError> {
+    let power: f64 = assembly.dead.iter().zip(velocities).map(|(load, v)| load * v).sum();
+    let total: f64 = assembly.dead.iter().map(|load| load.abs()).sum();
+    let (mut taken, mut inadmissible) = (0.0, 0.0_f64);
+    for (joint, point) in assembly.each_point().filter(|(_, point)| point.counts()) {
+        let (of, u) = (&point.strength, joint.slip(point, velocities));
+        let (opening, slip, slope) = (u.x, u.y.hypot(u.z), part * of.friction);
+        taken += part * of.cohesion * slip + of.tension * (opening - slope * slip).max(0.0);
+        inadmissible = inadmissible.max(slope * slip - opening);
+    }
+    if !(power > taken + inadmissible * total) {
+        return Err(EquilibriumError::NotConverged { status: "the motion that was found is no proof".into() });
+    }
+    Ok(Equilibrium::falling(assembly, velocities, programs))
+}

@@ -1,0 +1,154 @@
+//! The path of states of rest from given loads and strength to the limit.
+//!
+//! On the path displacements v and the parameter p, the factor on the live loads or the part of the strength, change
+//! together. A step predicts both along the last one and then settles them across it, so that it passes where p turns.
+//! At the limit displacements grow without bound along the mechanism, and p no longer changes.
+
+use super::error::EquilibriumError;
+use super::rest::{Drift, End, FAR, State, Unknown, dot};
+
+/// The first step, as a part of the displacements there are.
+const FIRST: f64 = 0.05;
+/// The first drag of a step, which the law that is linear between two events does not need, and of a drift.
+const STEP_DRAG: f64 = 1e-8;
+pub(super) const DRIFT_DRAG: f64 = 0.1;
+/// Most factorisations of a step, of a drift, and of a path.
+const OF_STEP: u32 = 60;
+pub(super) const OF_DRIFT: u32 = 400;
+const OF_PATH: u32 = 40_000;
+/// Steps below this part of the displacements lead nowhere: loads are raised instead.
+const SHORT: f64 = 1e-5;
+/// A factor on the live loads, of the size of the dead ones, that counts as none.
+const MOST: f64 = 1e9;
+/// By how much loads are then raised, as parts of them: under a little more than they can bear bodies creep.
+const RAISED: [f64; 3] = [0.01, 0.04, 0.16];
+const RAISED_DRAG: f64 = 1e-2;
+/// Displacements after which bodies then go along a mechanism, over those before.
+const ASTRAY: f64 = 30.0;
+/// Where p falls back by this part, a load that grows has no state to go on with.
+const BACK: f64 = 2e-3;
+/// Towards the limit p changes with the inverse of the displacements. It is extrapolated whenever these have grown so
+/// much, and found when p is as near to its limit as NEAR, and two extrapolations agree to SETTLED, as parts of it.
+const GROWTH: f64 = 4.0;
+const NEAR: f64 = 1e-3;
+const SETTLED: f64 = 1e-5;
+
+/// The end of a path.
+pub(super) struct Limit {
+    /// The parameter at the limit.
+    pub parameter: f64,
+    /// A state of rest there.
+    pub state: State,
+    /// Scaled velocities of the mechanism.
+    pub mechanism: Vec<f64>,
+}
+
+/// Where a path is, and where it goes.
+struct Way {
+    state: State,
+    /// Change of displacements and of the parameter.
+    along: Vec<f64>,
+    by: f64,
+    /// How much of it the next step takes.
+    length: f64,
+}
+
+/// Follows the states of rest from one of them to the limit, with load that grows, or strength that falls.
+///
+/// # Errors
+/// `Unlimited` or `StandsWithoutStrength`; `NotFound` if the path is lost, with the parameter that was reached.
+pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Limit, EquilibriumError> {
+    let start = size(drift, &state).max(1.0);
+    let mut way = begin(drift, state, unknown)?;
+    let mut best = way.state.clone();
+    let (mut mark, mut before_it) = ((0.0, f64::NAN), f64::NAN);
+    while drift.stiffness.solves < OF_PATH {
+        let across = drift.metric(&way.along, &way.state);
+        let v = way.state.v.iter().zip(&way.along).map(|(v, along)| v + way.length * along).collect();
+        let mut next = State { v, at: unknown.moved(way.state.at, way.length * way.by) };
+        let before = drift.stiffness.solves;
+        if drift.settle(&mut next, unknown, &across, STEP_DRAG, (OF_STEP, FAR)) != End::Rest {
+            way.length *= 0.25;
+            if way.length * dot(&way.along, &across).sqrt() < SHORT * size(drift, &way.state) {
+                way = raised(drift, best, unknown)?;
+                best = way.state.clone();
+            }
+            continue;
+        }
+        way.by = (unknown.of(next.at) - unknown.of(way.state.at)) / way.length;
+        way.along = next.v.iter().zip(&way.state.v).map(|(next, v)| (next - v) / way.length).collect();
+        way.state = next;
+        let parameter = unknown.of(way.state.at);
+        if parameter > MOST || unknown == Unknown::Strength && parameter <= 0.0 {
+            return Err(unlimited(unknown));
+        }
+        let gained = unknown.sense() * (parameter - unknown.of(best.at));
+        if gained > 0.0 {
+            best = way.state.clone();
+        } else if gained < -BACK * unknown.of(best.at).abs() {
+            way = raised(drift, best.clone(), unknown)?;
+            best = way.state.clone();
+            continue;
+        }
+        let grown = size(drift, &way.state);
+        if grown >= GROWTH * f64::max(mark.0, start) {
+            let found = (parameter * grown - mark.1 * mark.0) / (grown - mark.0);
+            let is_near = (found - parameter).abs() <= NEAR * found.abs();
+            if is_near && (found - before_it).abs() <= SETTLED * found.abs() {
+                return Ok(Limit { parameter: found, state: way.state, mechanism: way.along });
+            }
+            (mark, before_it) = ((grown, parameter), found);
+        }
+        way.length *= match drift.stiffness.solves - before {
+            0..=3 => 3.0,
+            4..=8 => 1.5,
+            _ => 0.8,
+        };
+    }
+    Err(lost(&way.state, unknown))
+}
+
+/// Displacements over those of elastic bodies.
+fn size(drift: &Drift, state: &State) -> f64 {
+    dot(&state.v, &drift.metric(&state.v, state)).sqrt()
+}
+
+/// From a state along its tangent.
+fn begin(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, EquilibriumError> {
+    let by = unknown.sense();
+    let mut along = drift.tangent(&state, unknown).ok_or_else(|| lost(&state, unknown))?;
+    along.iter_mut().for_each(|part| *part *= by);
+    let answers = dot(&along, &drift.metric(&along, &state)).sqrt();
+    let length = FIRST * size(drift, &state).max(1.0) / answers;
+    // Nothing answers: no strength is used, or no live load moves anything.
+    if length.is_finite() { Ok(Way { state, along, by, length }) } else { Err(unlimited(unknown)) }
+}
+
+/// Where the path turns back sharply: what bodies do under a little more load, which is to come to rest elsewhere, or to
+/// go along a mechanism, on which a state of rest is looked for.
+fn raised(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, EquilibriumError> {
+    for raise in RAISED {
+        let more = unknown.sense() * raise * unknown.of(state.at).abs().max(raise);
+        let mut next = State { at: unknown.moved(state.at, more), ..state.clone() };
+        match drift.settle(&mut next, Unknown::Displacements, &[], RAISED_DRAG, (OF_DRIFT, ASTRAY)) {
+            End::Rest => return begin(drift, next, unknown),
+            End::Undecided => continue,
+            End::Gone => {}
+        }
+        let along: Vec<f64> = next.v.iter().zip(&state.v).map(|(next, v)| next - v).collect();
+        let across = drift.metric(&along, &next);
+        if drift.settle(&mut next, unknown, &across, RAISED_DRAG, (OF_DRIFT, FAR)) == End::Rest {
+            let along = next.v.iter().zip(&state.v).map(|(next, v)| next - v).collect();
+            return Ok(Way { by: 0.0, length: 1.0, along, state: next });
+        }
+    }
+    Err(lost(&state, unknown))
+}
+
+fn unlimited(unknown: Unknown) -> EquilibriumError {
+    if unknown == Unknown::Load { EquilibriumError::Unlimited } else { EquilibriumError::StandsWithoutStrength }
+}
+
+fn lost(state: &State, unknown: Unknown) -> EquilibriumError {
+    EquilibriumError::NotFound { stands: unknown.of(state.at), bound: f64::NAN }
+}
