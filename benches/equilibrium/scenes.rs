@@ -65,6 +65,63 @@ pub fn wall(width: usize, rows: usize, friction: f64) -> Scene {
     Scene { bodies, contacts }
 }
 
+/// Widths of the bricks of each course, negative where there is an opening.
+type Courses = Vec<Vec<f64>>;
+
+/// The walls 1 to 3 of Ferris and Tin-Loi (2001), Int. J. Solids Struct. 38, bricks of 0.4 by 0.175 m, friction 0.65; the
+/// third has a window.
+pub fn ferris_tin_loi(wall: usize) -> Scene {
+    let [even, odd] = [vec![0.5, 1.0, 1.0, 1.0, 1.0, 0.5], vec![1.0; 5]];
+    let plain = |rows: usize| -> Courses { (0..rows).map(|row| [&even, &odd][row % 2].clone()).collect() };
+    let [full, offset] = [vec![1.0; 4], vec![0.5, 1.0, 1.0, 1.0, 0.5]];
+    let [jamb, reveal] = [vec![0.5, 1.0, -1.0, 1.0, 0.5], vec![1.0, 0.5, -1.0, 0.5, 1.0]];
+    let window = [&full, &offset, &full, &jamb, &reveal, &jamb, &reveal, &jamb, &full, &offset, &full];
+    masonry(&match wall {
+        1 => plain(6),
+        2 => plain(10),
+        _ => window.into_iter().cloned().collect(),
+    })
+}
+
+/// A wall of courses on a held floor, pushed along x by a share of its weight.
+fn masonry(courses: &Courses) -> Scene {
+    const LENGTH: f64 = 0.4;
+    const HEIGHT: f64 = 0.175;
+    const FRICTION: f64 = 0.65;
+    let mut bricks = Vec::new();
+    for (row, widths) in courses.iter().enumerate() {
+        let mut x = 0.0;
+        for width in widths {
+            if *width > 0.0 {
+                bricks.push((row, x, x + width));
+            }
+            x += width.abs();
+        }
+    }
+    let mut bodies = vec![Body::held(v(0.0, 0.0, -1.0))];
+    let mut contacts = Vec::new();
+    for (i, &(row, a, b)) in bricks.iter().enumerate() {
+        let centre = v(0.5 * (a + b) * LENGTH, 0.5, (row as f64 + 0.5) * HEIGHT);
+        bodies.push(Body { live: Load::force(v(b - a, 0.0, 0.0)), ..Body::free(centre, v(0.0, 0.0, a - b)) });
+        let bed = |c: f64, d: f64| level([c * LENGTH, 0.0], [d * LENGTH, 1.0], row as f64 * HEIGHT);
+        if row == 0 {
+            contacts.push(Contact::new([0, i + 1], bed(a, b), Vector3::z(), FRICTION));
+        }
+        for (j, &(other, c, d)) in bricks.iter().enumerate() {
+            let (low, high) = (a.max(c), b.min(d));
+            if other + 1 == row && high - low > 1e-9 {
+                contacts.push(Contact::new([j + 1, i + 1], bed(low, high), Vector3::z(), FRICTION));
+            }
+            if other == row && (d - a).abs() < 1e-9 {
+                let head = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+                let corner = |(y, z): (f64, f64)| v(a * LENGTH, y, (row as f64 + z) * HEIGHT);
+                contacts.push(Contact::new([j + 1, i + 1], head.map(corner).to_vec(), Vector3::x(), FRICTION));
+            }
+        }
+    }
+    Scene { bodies, contacts }
+}
+
 /// A semicircular arch of n voussoirs, radii 1 ± t/2, on two held springers; depth 1, no sliding.
 pub fn arch(thickness: f64, count: usize) -> Scene {
     let pi = std::f64::consts::PI;

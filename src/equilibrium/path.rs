@@ -4,6 +4,7 @@
 //! together. A step predicts both along the last one and then settles them across it, so that it passes where p turns.
 //! At the limit displacements grow without bound along the mechanism, and p no longer changes.
 
+use super::answer::Demand;
 use super::error::EquilibriumError;
 use super::rest::{Drift, End, FAR, State, Unknown, dot};
 
@@ -20,6 +21,8 @@ const OF_PATH: u32 = 40_000;
 const SHORT: f64 = 1e-5;
 /// A factor on the live loads, of the size of the dead ones, that counts as none.
 const MOST: f64 = 1e9;
+/// A part of the strength that counts as none.
+const NONE: f64 = 1e-9;
 /// By how much loads are then raised, as parts of them: under a little more than they can bear bodies creep.
 const RAISED: [f64; 3] = [0.01, 0.04, 0.16];
 const RAISED_DRAG: f64 = 1e-2;
@@ -79,7 +82,7 @@ pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result
         way.along = next.v.iter().zip(&way.state.v).map(|(next, v)| (next - v) / way.length).collect();
         way.state = next;
         let parameter = unknown.of(way.state.at);
-        if parameter > MOST || unknown == Unknown::Strength && parameter <= 0.0 {
+        if parameter > MOST || unknown == Unknown::Strength && parameter <= NONE {
             return Err(unlimited(unknown));
         }
         let gained = unknown.sense() * (parameter - unknown.of(best.at));
@@ -120,8 +123,15 @@ fn begin(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, Equil
     along.iter_mut().for_each(|part| *part *= by);
     let answers = dot(&along, &drift.metric(&along, &state)).sqrt();
     let length = FIRST * size(drift, &state).max(1.0) / answers;
-    // Nothing answers: no strength is used, or no live load moves anything.
-    if length.is_finite() { Ok(Way { state, along, by, length }) } else { Err(unlimited(unknown)) }
+    if length.is_finite() {
+        return Ok(Way { state, along, by, length });
+    }
+    // Nothing answers: no live load moves anything, or no point slips before strength has fallen to what is used.
+    let used = if unknown == Unknown::Strength { drift.used(&state) } else { 0.0 };
+    if !(used > NONE) {
+        return Err(unlimited(unknown));
+    }
+    raised(drift, State { at: Demand { strength: used, ..state.at }, ..state }, unknown)
 }
 
 /// Where the path turns back sharply: what bodies do under a little more load, which is to come to rest elsewhere, or to

@@ -80,7 +80,9 @@ pub fn strength_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, Equilib
     }
     let mut drift = Drift::new(&assembly)?;
     let mut motion = Vec::new();
-    for doubled in 0..STRONGER {
+    // What falls whatever its strength is not tried with more.
+    let falls = matches!(&associated, Ok(found) if !found.stands);
+    for doubled in 0..if falls { 1 } else { STRONGER } {
         match from_nothing(&mut drift, Demand { live: 0.0, strength: 2.0_f64.powi(doubled) })? {
             Begin::Rest(start) => {
                 return at_limit(&mut drift, start, Unknown::Strength, associated, |part| 1.0 / part);

@@ -20,10 +20,10 @@ const CLAMPED: f64 = 10.0;
 pub(super) const FAR: f64 = 1e8;
 /// Share of R by which a step may miss it.
 const MISSED: f64 = 0.6;
-/// Least drag: from a change of R by rounding no step goes farther than FAR.
-const LEAST_DRAG: f64 = 1e-10;
-/// The most drag, with which bodies move by less than their forces would move them alone.
-const MOST_DRAG: f64 = 1e3;
+/// Least drag: with less the rounding of the stiffness would hold a mechanism.
+const LEAST_DRAG: f64 = 1e-13;
+/// With more drag even a light stone on a heavy one does not move.
+const MOST_DRAG: f64 = 1e12;
 
 /// What is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,6 +92,16 @@ impl<'a> Drift<'a> {
             point.strength.force(&joint.slip(point, v), at.strength)
         };
         self.assembly.each_point().map(force).collect()
+    }
+
+    /// The largest part of its strength that a point uses.
+    pub fn used(&self, state: &State) -> f64 {
+        let forces = self.forces(state);
+        let used = |((_, point), f): ((_, &super::assembly::Point), &Vector3<f64>)| {
+            let along = f.y.hypot(f.z);
+            if along > 0.0 { along / point.strength.most(f.x, 1.0) } else { 0.0 }
+        };
+        self.assembly.each_point().zip(&forces).map(used).fold(0.0, f64::max)
     }
 
     /// R, and the sum of the sizes of all forces on each body; a body without any has the rounding of the mean load.
