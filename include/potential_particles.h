@@ -554,21 +554,32 @@ typedef struct pp_rigid_contact {
     double cohesion;
     // Tensile strength, a stress.
     double tension;
+    // Along the normal and across it, force per volume: ratios count alone. 0 and 0: 1 and 1.
+    double stiffness[2];
+    // Initial stress on the second body: p times the normal where the contact is pressed by p.
+    double initial[3];
 } pp_rigid_contact;
 
 // What pp_equilibrium finds.
 typedef struct pp_equilibrium_result {
-    // 1: forces in equilibrium exist (for a factor: for any factor). 0: velocities are those of a motion
-    // that proves that none do.
+    // 1: the bodies come to rest (for a factor: with any factor). 0: velocities are those of the motion.
     uint32_t stands;
-    // Number of cone programs.
-    uint32_t programs;
+    // 1: forces within the strength that hold the bodies exist, where joints open by the tangent of the
+    // friction angle as they slip.
+    uint32_t may_stand;
     // The load factor or the factor of safety; 0 for PP_STANDS and where nothing stands.
     double factor;
+    // Its bound from above, of joints that open as they slip: infinite without a limit, NaN if it was not
+    // found.
+    double bound;
     // The largest force, or torque over the size of the body, that is left on a body, over the mean load.
     double unbalanced;
-    // The largest friction beyond its strength at a corner, over the mean load.
+    // The largest friction beyond its strength at a point, over the mean load.
     double excess;
+    // The largest force of a contact over the mean load: far above 1 where blocks clamp each other.
+    double largest;
+    // Number of matrices that were factorised, or of cone programs.
+    uint64_t solves;
 } pp_equilibrium_result;
 
 // What pp_pack fills, and how.
@@ -1281,12 +1292,13 @@ pp_status pp_flat_contact_gradient(const struct pp_particle *a,
                                    struct pp_pose_gradient *poses,
                                    uint32_t *flags);
 
-// Limit analysis of rigid bodies: forces at the corners of their contacts that keep each free body in
-// equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a the area over the number of corners;
-// and how the bodies move at the limit.
+// Limit analysis of rigid bodies on elastic joints: forces at the corners of their contacts that keep each
+// free body in equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a a share of the area; and how
+// the bodies move at the limit.
 //
-// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 1: joints open by the tangent of the
-// friction angle as they slip, for a bound by one program; 0: they do not (PP_STANDS asks for neither).
+// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 0: joints slip along themselves, in
+// the state that loads lead to from nothing; 1: they open by the tangent of the friction angle as they slip,
+// which bounds the factor from above.
 // corners: rows of x, y, z, those of the first contact first; corner_count: of all contacts.
 // result: receives the answer. forces: receives rows of x, y, z: the force on the second body of its
 // contact at each corner, 0 where nothing stands (may be NULL). velocities: receives six numbers for each

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Whether a scene of rigid blocks stands, and by how much: limit analysis by cone programs."""
+"""Whether a scene of rigid blocks stands, and by how much: limit analysis on elastic joints."""
 from ._core import _equilibrium
 
 Scene = _equilibrium.Scene

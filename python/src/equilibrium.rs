@@ -21,7 +21,9 @@ pub struct PyScene(Scene);
 /// fall.
 fn raised(error: EquilibriumError) -> PyErr {
     match error {
-        EquilibriumError::NotConverged { .. } | EquilibriumError::NotSettled { .. } => {
+        EquilibriumError::NotConverged { .. }
+        | EquilibriumError::Undecided { .. }
+        | EquilibriumError::NotFound { .. } => {
             PyRuntimeError::new_err(error.to_string())
         }
         _ => refused(error),
@@ -50,6 +52,13 @@ impl OfJoints {
         Ok(())
     }
 
+    fn each(&self) -> impl Iterator<Item = &f64> {
+        match self {
+            Self::All(value) => std::slice::from_ref(value).iter(),
+            Self::Each(values) => values.iter(),
+        }
+    }
+
     /// At a face between blocks, after check().
     fn at(&self, of: FaceOf) -> f64 {
         match (self, of) {
@@ -59,6 +68,19 @@ impl OfJoints {
         }
     }
 }
+
+/// Refuses what can only be an angle in degrees.
+fn coefficient(friction: &f64) -> PyResult<()> {
+    if *friction > STEEPEST {
+        let tangent = friction.to_radians().tan();
+        let said = format!("friction={friction} is a coefficient, tan of the angle: {friction} degrees are {tangent:.4}");
+        return Err(refused(said));
+    }
+    Ok(())
+}
+
+/// A coefficient of friction above that of 84 degrees is an angle.
+const STEEPEST: f64 = 10.0;
 
 fn flow(dilatant: bool) -> Flow {
     if dilatant { Flow::Associated } else { Flow::NonDilatant }
@@ -72,7 +94,7 @@ impl PyScene {
     }
 
     /// The blocks of a rock mass under unit_weight (3,), force over volume. held: indices of blocks. friction = tan
-    /// phi, cohesion, tension: of all joints, or sequences with a number for each joint of the slice.
+    /// phi, a coefficient, cohesion, tension: of all joints, or sequences with a number for each joint of the slice.
     #[staticmethod]
     #[pyo3(signature = (mass, unit_weight, *, held, friction, cohesion=OfJoints::All(0.0), tension=OfJoints::All(0.0)))]
     fn of_rock(
@@ -92,6 +114,7 @@ impl PyScene {
         for (name, given) in [("friction", &friction), ("cohesion", &cohesion), ("tension", &tension)] {
             given.check(name, mass.mass())?;
         }
+        friction.each().try_for_each(coefficient)?;
         let strength = |interface: &Interface| {
             let [block, face] = interface.faces[0];
             let of = mass.mass().blocks[block].faces[face].of;
@@ -120,8 +143,10 @@ impl PyScene {
     }
 
     /// Adds a contact of two bodies: corners (n, 3) in order, normal from the first to the second. friction = tan phi;
-    /// cohesion and tension are stresses.
-    #[pyo3(signature = (first, second, corners, normal, *, friction, cohesion=0.0, tension=0.0))]
+    /// cohesion and tension are stresses; stiffness: along the normal and across it, of which ratios alone count;
+    /// initial: stress on the second body before any load, p times the normal where the contact is pressed by p.
+    #[pyo3(signature = (first, second, corners, normal, *, friction, cohesion=0.0, tension=0.0, stiffness=[1.0; 2],
+                        initial=[0.0; 3]))]
     #[allow(clippy::too_many_arguments)]
     fn add_contact(
         &mut self,
@@ -132,11 +157,14 @@ impl PyScene {
         friction: f64,
         cohesion: f64,
         tension: f64,
+        stiffness: [f64; 2],
+        initial: [f64; 3],
     ) -> PyResult<usize> {
+        coefficient(&friction)?;
         let corners = rows::<3>(corners, "corners", "x, y, z")?.into_iter().map(Vector3::from).collect();
         let normal = vector::<3>(normal, "normal")?.into();
         let contact = Contact::new([first, second], corners, normal, friction);
-        self.0.contacts.push(Contact { cohesion, tension, ..contact });
+        self.0.contacts.push(Contact { cohesion, tension, stiffness, initial: initial.into(), ..contact });
         Ok(self.0.contacts.len() - 1)
     }
 
@@ -174,27 +202,39 @@ impl PyScene {
         PyArray1::from_vec(py, self.0.contacts.iter().enumerate().flat_map(of).collect())
     }
 
-    /// Whether forces exist that hold all bodies: the least of these, or the mechanism that proves that none do.
-    fn stands(&self, py: Python<'_>) -> PyResult<PyEquilibrium> {
-        py.detach(|| library::stands(&self.0)).map(PyEquilibrium).map_err(raised)
+    /// Whether the bodies come to rest under their dead loads, from nothing: with the forces, or the motion.
+    /// dilatant=True: whether any forces hold them, where joints open by friction times their slip.
+    #[pyo3(signature = (*, dilatant=false))]
+    fn stands(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
+        self.answer(py, |scene| library::stands(scene, flow(dilatant)))
     }
 
-    /// The largest multiple of the live loads that can be borne. dilatant=True: the bound by one program, in which
-    /// joints open as they slip.
+    /// The largest multiple of the live loads that can be borne, and its bound. dilatant=True: the bound alone, with its
+    /// forces and mechanism, of joints that open as they slip.
     #[pyo3(signature = (*, dilatant=false))]
     fn load_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
-        py.detach(|| library::load_factor(&self.0, flow(dilatant))).map(PyEquilibrium).map_err(raised)
+        self.answer(py, |scene| library::load_factor(scene, flow(dilatant)))
     }
 
-    /// The factor of safety on tan phi and cohesion. dilatant=True: the bound by programs in which joints open as they
-    /// slip.
+    /// The factor of safety on tan phi and cohesion, and its bound. dilatant=True: the bound alone, with its forces and
+    /// mechanism, of joints that open as they slip.
     #[pyo3(signature = (*, dilatant=false))]
     fn strength_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
-        py.detach(|| library::strength_factor(&self.0, flow(dilatant))).map(PyEquilibrium).map_err(raised)
+        self.answer(py, |scene| library::strength_factor(scene, flow(dilatant)))
     }
 
     fn __repr__(&self) -> String {
         format!("<Scene of {} bodies and {} contacts>", self.0.bodies.len(), self.0.contacts.len())
+    }
+}
+
+impl PyScene {
+    fn answer(
+        &self,
+        py: Python<'_>,
+        ask: impl FnOnce(&Scene) -> Result<Equilibrium, EquilibriumError> + Send,
+    ) -> PyResult<PyEquilibrium> {
+        py.detach(|| ask(&self.0)).map(PyEquilibrium).map_err(raised)
     }
 }
 
@@ -244,15 +284,41 @@ impl PyEquilibrium {
         self.0.excess
     }
 
-    /// Number of cone programs.
+    /// Number of matrices that were factorised, or of cone programs.
     #[getter]
-    fn programs(&self) -> u32 {
-        self.0.programs
+    fn solves(&self) -> u32 {
+        self.0.solves
+    }
+
+    /// Whether any forces hold the bodies, where joints open as they slip.
+    #[getter]
+    fn may_stand(&self) -> bool {
+        self.0.may_stand
+    }
+
+    /// The factor of joints that open as they slip, which no state of equilibrium exceeds: inf without a limit, nan if
+    /// it was not found.
+    #[getter]
+    fn bound(&self) -> f64 {
+        self.0.bound
+    }
+
+    /// The largest force of a contact over the mean load of a body: far above 1 where blocks clamp each other.
+    #[getter]
+    fn largest(&self) -> f64 {
+        self.0.largest
+    }
+
+    /// (contacts, 3): of each contact its force along the normal, across it, and that over friction and cohesion there;
+    /// no row where nothing stands.
+    #[getter]
+    fn contacts<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
+        to_rows(py, self.0.contacts.iter().map(|of| [of.normal, of.shear, of.used]))
     }
 
     fn __repr__(&self) -> String {
-        let Equilibrium { stands, factor, programs, .. } = self.0;
-        format!("<Equilibrium stands={stands} factor={factor:.6}, {programs} programs>")
+        let Equilibrium { stands, factor, bound, .. } = self.0;
+        format!("<Equilibrium stands={stands} factor={factor:.6}, at most {bound:.6}>")
     }
 }
 

@@ -25,6 +25,8 @@ class Block(unittest.TestCase):
                 self.assertAlmostEqual(found.factor, min(friction, 1 / height), delta=1e-6)
                 np.testing.assert_allclose(found.forces.sum(axis=0), (-found.factor, 0, 1), atol=1e-6)
                 self.assertGreater(found.mechanism[1, 0], 0.0)
+                np.testing.assert_allclose(found.contacts, [(1, found.factor, found.factor / friction)], atol=1e-5)
+                self.assertAlmostEqual(found.bound, found.factor, delta=1e-6)
         self.assertAlmostEqual(block(0.2, 0.5, cohesion=0.7).load_factor().factor, 1.2, delta=1e-6)
 
     def test_what_stands_has_forces_and_what_falls_a_mechanism(self):
@@ -40,6 +42,8 @@ class Block(unittest.TestCase):
             scene.stands()
         with self.assertRaisesRegex(ValueError, "however small friction"):
             block(0.5, 0.5).strength_factor()
+        with self.assertRaisesRegex(ValueError, "friction=35.0 is a coefficient.*35 degrees are 0.7002"):
+            block(0.5, 35.0)
 
 
 class Rock(unittest.TestCase):

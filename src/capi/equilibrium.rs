@@ -66,12 +66,13 @@ pub struct pp_rigid_contact {
 pub struct pp_equilibrium_result {
     /// 1: the bodies come to rest (for a factor: with any factor). 0: velocities are those of the motion.
     pub stands: u32,
-    /// 1: forces within the strength that hold the bodies exist, where joints open by the tangent of the friction
-    /// angle as they slip.
+    /// 1: forces within the strength that hold the bodies exist, where joints open by the tangent of the
+    /// friction angle as they slip.
     pub may_stand: u32,
     /// The load factor or the factor of safety; 0 for PP_STANDS and where nothing stands.
     pub factor: f64,
-    /// Its bound from above, of joints that open as they slip: infinite without a limit, NaN if it was not found.
+    /// Its bound from above, of joints that open as they slip: infinite without a limit, NaN if it was not
+    /// found.
     pub bound: f64,
     /// The largest force, or torque over the size of the body, that is left on a body, over the mean load.
     pub unbalanced: f64,

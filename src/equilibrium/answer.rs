@@ -1,7 +1,7 @@
 //! What is answered: forces, checked again from the scene, and the motion at the limit.
 
-use super::assembly::{Assembly, largest};
-use super::scene::{Scene, Velocity};
+use super::assembly::{Assembly, Joint, Point, largest};
+use super::scene::Velocity;
 use nalgebra::Vector3;
 
 /// Forces in equilibrium, and the motion at the limit.
@@ -21,6 +21,8 @@ pub struct Equilibrium {
     /// Force on the second body at each corner, contact after contact, in the axes of the scene; empty where nothing
     /// stands.
     pub forces: Vec<Vector3<f64>>,
+    /// Force of each contact; empty where nothing stands.
+    pub contacts: Vec<ContactForce>,
     /// Velocity of each body in the mechanism, the fastest at 1; empty in [`stands()`](super::stands) of a scene that
     /// does.
     pub mechanism: Vec<Velocity>,
@@ -51,10 +53,13 @@ impl Equilibrium {
     /// Forces at the points of an assembly, judged anew.
     pub(super) fn standing(assembly: &Assembly, forces: &[Vector3<f64>], at: Demand, solves: u32) -> Self {
         let left = assembly.left(forces.iter().copied(), at.live).0;
-        let beyond = |((_, point), f): ((_, &super::assembly::Point), &Vector3<f64>)| {
+        let beyond = |((_, point), f): ((_, &Point), &Vector3<f64>)| {
             f.y.hypot(f.z) - point.strength.most(f.x, at.strength)
         };
-        let total = |joint: &super::assembly::Joint| forces[joint.points.clone()].iter().sum::<Vector3<f64>>().norm();
+        let mut contacts = vec![ContactForce::default(); assembly.contact_count];
+        for joint in &assembly.joints {
+            contacts[joint.contact] = ContactForce::of(assembly, joint, forces);
+        }
         Self {
             stands: true,
             may_stand: true,
@@ -64,7 +69,8 @@ impl Equilibrium {
             mechanism: Vec::new(),
             unbalanced: left.chunks(6).map(largest).fold(0.0, f64::max),
             excess: assembly.each_point().zip(forces).map(beyond).fold(0.0, f64::max),
-            largest: assembly.joints.iter().map(total).fold(0.0, f64::max),
+            largest: contacts.iter().map(|of| of.normal.hypot(of.shear)).fold(0.0, f64::max) / assembly.unit,
+            contacts,
             solves,
         }
     }
@@ -77,6 +83,7 @@ impl Equilibrium {
             factor: 0.0,
             bound: 0.0,
             forces: Vec::new(),
+            contacts: Vec::new(),
             mechanism: assembly.velocities(velocities),
             unbalanced: 0.0,
             excess: 0.0,
@@ -84,30 +91,30 @@ impl Equilibrium {
             solves,
         }
     }
-
-    /// Of each contact of the scene that was asked about: its force.
-    pub fn contacts(&self, scene: &Scene) -> Vec<ContactForce> {
-        let mut corners = self.forces.iter();
-        let of = |contact: &super::scene::Contact| {
-            let normal = contact.normal.normalize();
-            let total: Vector3<f64> = corners.by_ref().take(contact.corners.len()).sum();
-            let pressing = total.dot(&normal);
-            let along = (total - pressing * normal).norm();
-            let strength = contact.friction * pressing + contact.cohesion * contact.area;
-            let is_idle = !(along > 0.0);
-            ContactForce { normal: pressing, shear: along, used: if is_idle { 0.0 } else { along / strength.max(0.0) } }
-        };
-        scene.contacts.iter().map(of).collect()
-    }
 }
 
 /// The force of a contact.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct ContactForce {
     /// Along the normal; pressing is positive.
     pub normal: f64,
     /// Size across it.
     pub shear: f64,
-    /// `shear` over μ n + c A with the strength of the scene: at a factor of safety F it reaches 1/F.
+    /// `shear` over μ n + c A with the strength of the scene: at a factor of safety F it reaches 1/F. 0 where nothing
+    /// slides.
     pub used: f64,
+}
+
+impl ContactForce {
+    fn of(assembly: &Assembly, joint: &Joint, forces: &[Vector3<f64>]) -> Self {
+        let total: Vector3<f64> = forces[joint.points.clone()].iter().sum();
+        let shear = total.y.hypot(total.z);
+        let points = &assembly.points[joint.points.clone()];
+        let friction = points.first().map_or(0.0, |point| point.strength.friction);
+        let cohesion: f64 = points.iter().map(|point| point.strength.cohesion).sum();
+        let most = (friction * total.x + cohesion).max(0.0);
+        let used = if shear > 0.0 { shear / most } else { 0.0 };
+        Self { normal: assembly.unit * total.x, shear: assembly.unit * shear, used }
+    }
 }

@@ -4,7 +4,7 @@
 use super::error::EquilibriumError;
 use super::law::Strength;
 use super::points::points_of;
-use super::scene::{Load, Scene, Velocity};
+use super::scene::{Contact, Load, Scene, Velocity};
 use nalgebra::{Matrix3, Vector3};
 use std::ops::Range;
 
@@ -21,8 +21,9 @@ pub(super) struct Assembly {
     /// Contacts of free bodies.
     pub joints: Vec<Joint>,
     pub points: Vec<Point>,
-    /// Number of corners of the scene.
+    /// Numbers of corners and contacts of the scene.
     corner_count: usize,
+    pub contact_count: usize,
     /// Six numbers for each free body.
     pub dead: Vec<f64>,
     pub live: Vec<f64>,
@@ -30,6 +31,8 @@ pub(super) struct Assembly {
 
 /// A contact that touches a free body.
 pub(super) struct Joint {
+    /// Its number in the scene.
+    pub contact: usize,
     /// Its free bodies, by their index among these.
     pub ends: [Option<usize>; 2],
     /// The normal and two directions across it, as columns.
@@ -119,6 +122,7 @@ impl Assembly {
             joints: Vec::new(),
             points: Vec::new(),
             corner_count: scene.corner_count(),
+            contact_count: scene.contacts.len(),
             dead,
             live,
         };
@@ -133,11 +137,11 @@ impl Assembly {
         // Lines and points are as stiff as a mean contact.
         let mean_area = if count > 0.0 { areas / count } else { 1.0 };
         let area_of = |area: f64| if area > 0.0 { area } else { mean_area };
-        let normal = |contact: &super::scene::Contact| area_of(contact.area) * contact.stiffness[0];
+        let normal = |contact: &Contact| area_of(contact.area) * contact.stiffness[0];
         let mean_stiffness =
             scene.contacts.iter().map(normal).sum::<f64>() / scene.contacts.len() as f64;
         let mut first_corner = 0;
-        for contact in &scene.contacts {
+        for (number, contact) in scene.contacts.iter().enumerate() {
             let ends = contact.bodies.map(|body| self.free[body]);
             let along = contact.normal.normalize();
             let across = along.cross(&Vector3::ith(along.iamin(), 1.0)).normalize();
@@ -160,7 +164,7 @@ impl Assembly {
                 self.points.push(Point { arms: contact.bodies.map(arm), strength, onto, is_corner: point.is_corner });
             }
             if ends != [None, None] {
-                self.joints.push(Joint { ends, frame, points: begin..self.points.len() });
+                self.joints.push(Joint { contact: number, ends, frame, points: begin..self.points.len() });
             }
             first_corner += contact.corners.len();
         }

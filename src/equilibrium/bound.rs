@@ -2,7 +2,7 @@
 //! convex problem, and no state of equilibrium exceeds it.
 
 use super::answer::{Demand, Equilibrium};
-use super::assembly::Assembly;
+use super::assembly::{Assembly, Point};
 use super::error::EquilibriumError;
 use super::program::{Cone, Goal, Outcome, Solved, solve};
 use nalgebra::Vector3;
@@ -25,7 +25,7 @@ const MOST: u32 = 100;
 /// # Errors
 /// `NotConverged`.
 pub(super) fn rest(assembly: &Assembly, part: f64) -> Result<Outcome, EquilibriumError> {
-    let cone = |(_, point): (_, &super::assembly::Point)| {
+    let cone = |(_, point): (_, &Point)| {
         let of = &point.strength;
         Cone { slope: part * of.friction, base: part * of.cohesion, growth: 0.0, tension: of.tension }
     };
@@ -50,7 +50,7 @@ pub(super) fn stands(assembly: &Assembly) -> Result<Equilibrium, EquilibriumErro
 /// # Errors
 /// `NotConverged`, `Unlimited`.
 pub(super) fn load(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
-    let cone = |(_, point): (_, &super::assembly::Point)| {
+    let cone = |(_, point): (_, &Point)| {
         let of = &point.strength;
         Cone { slope: of.friction, base: of.cohesion, growth: 0.0, tension: of.tension }
     };
@@ -75,7 +75,7 @@ pub(super) fn strength(assembly: &Assembly) -> Result<Equilibrium, EquilibriumEr
     let mut forces = vec![Vector3::x(); assembly.points.len()];
     let (mut kappa, mut bracket) = (0.0, [0.0, f64::INFINITY]);
     for programs in 1..=MOST {
-        let cone = |((_, point), force): ((_, &super::assembly::Point), &Vector3<f64>)| {
+        let cone = |((_, point), force): ((_, &Point), &Vector3<f64>)| {
             let (of, normal) = (&point.strength, force.x.max(-point.strength.tension));
             let (slope, growth) = (kappa * of.friction, of.cohesion + of.friction * normal);
             Cone { slope, base: kappa * of.cohesion - kappa * growth, growth, tension: of.tension }

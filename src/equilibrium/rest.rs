@@ -6,7 +6,7 @@
 //! method; where none does, v grows by 1/ε along the mechanism.
 
 use super::answer::Demand;
-use super::assembly::{Assembly, largest};
+use super::assembly::{Assembly, Joint, Point, largest};
 use super::error::EquilibriumError;
 use super::stiffness::{Stiffness, weights};
 use nalgebra::Vector3;
@@ -88,7 +88,7 @@ impl<'a> Drift<'a> {
 
     /// Forces at the points.
     pub fn forces(&self, State { v, at }: &State) -> Vec<Vector3<f64>> {
-        let force = |(joint, point): (&super::assembly::Joint, &super::assembly::Point)| {
+        let force = |(joint, point): (&Joint, &Point)| {
             point.strength.force(&joint.slip(point, v), at.strength)
         };
         self.assembly.each_point().map(force).collect()
@@ -97,7 +97,7 @@ impl<'a> Drift<'a> {
     /// The largest part of its strength that a point uses.
     pub fn used(&self, state: &State) -> f64 {
         let forces = self.forces(state);
-        let used = |((_, point), f): ((_, &super::assembly::Point), &Vector3<f64>)| {
+        let used = |((_, point), f): ((_, &Point), &Vector3<f64>)| {
             let along = f.y.hypot(f.z);
             if along > 0.0 { along / point.strength.most(f.x, 1.0) } else { 0.0 }
         };
@@ -106,7 +106,7 @@ impl<'a> Drift<'a> {
 
     /// R, and the sum of the sizes of all forces on each body; a body without any has the rounding of the mean load.
     fn left(&self, v: &[f64], at: Demand) -> (Vec<f64>, Vec<f64>) {
-        let force = |(joint, point): (&super::assembly::Joint, &super::assembly::Point)| {
+        let force = |(joint, point): (&Joint, &Point)| {
             point.strength.force(&joint.slip(point, v), at.strength)
         };
         let (left, mut sizes) = self.assembly.left(self.assembly.each_point().map(force), at.live);

@@ -146,10 +146,10 @@ void test_layout(void) {
     CHECK(sizeof(pp_rigid_body) == 128);
     CHECK(offsetof(pp_rigid_body, live_torque) == 96);
     CHECK(offsetof(pp_rigid_body, held) == 120);
-    CHECK(sizeof(pp_rigid_contact) == 80);
+    CHECK(sizeof(pp_rigid_contact) == 120);
     CHECK(offsetof(pp_rigid_contact, normal) == 24);
     CHECK(offsetof(pp_rigid_contact, tension) == 72);
-    CHECK(sizeof(pp_equilibrium_result) == 32);
+    CHECK(sizeof(pp_equilibrium_result) == 56);
     CHECK(offsetof(pp_equilibrium_result, factor) == 8);
     CHECK(sizeof(pp_block) == 112);
     CHECK(offsetof(pp_block, centroid) == 8);
