@@ -53,9 +53,8 @@ impl Equilibrium {
     /// Forces at the points of an assembly, judged anew.
     pub(super) fn standing(assembly: &Assembly, forces: &[Vector3<f64>], at: Demand, solves: u32) -> Self {
         let left = assembly.left(forces.iter().copied(), at.live).0;
-        let beyond = |((_, point), f): ((_, &Point), &Vector3<f64>)| {
-            f.y.hypot(f.z) - point.strength.most(f.x, at.strength)
-        };
+        let beyond =
+            |((_, point), f): ((_, &Point), &Vector3<f64>)| f.y.hypot(f.z) - point.strength.most(f.x, at.strength);
         let mut contacts = vec![ContactForce::default(); assembly.contact_count];
         for joint in &assembly.joints {
             contacts[joint.contact] = ContactForce::of(assembly, joint, forces);

@@ -138,8 +138,7 @@ impl Assembly {
         let mean_area = if count > 0.0 { areas / count } else { 1.0 };
         let area_of = |area: f64| if area > 0.0 { area } else { mean_area };
         let normal = |contact: &Contact| area_of(contact.area) * contact.stiffness[0];
-        let mean_stiffness =
-            scene.contacts.iter().map(normal).sum::<f64>() / scene.contacts.len() as f64;
+        let mean_stiffness = scene.contacts.iter().map(normal).sum::<f64>() / scene.contacts.len() as f64;
         let mut first_corner = 0;
         for (number, contact) in scene.contacts.iter().enumerate() {
             let ends = contact.bodies.map(|body| self.free[body]);

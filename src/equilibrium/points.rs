@@ -76,12 +76,8 @@ fn on_a_line(corners: &[Vector3<f64>], middle: Vector3<f64>, extent: f64) -> Vec
     };
     let first = farthest(middle);
     let last = farthest(corners[first]);
-    let end = |corner: usize, share| ContactPoint {
-        at: corners[corner],
-        share,
-        onto: vec![(corner, 1.0)],
-        is_corner: true,
-    };
+    let end =
+        |corner: usize, share| ContactPoint { at: corners[corner], share, onto: vec![(corner, 1.0)], is_corner: true };
     if extent == 0.0 {
         return vec![end(first, 1.0)];
     }

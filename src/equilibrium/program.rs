@@ -107,11 +107,7 @@ struct Program {
 ///
 /// # Errors
 /// `NotConverged`.
-pub(super) fn solve(
-    assembly: &Assembly,
-    strengths: &[Cone],
-    goal: Goal,
-) -> Result<Outcome, EquilibriumError> {
+pub(super) fn solve(assembly: &Assembly, strengths: &[Cone], goal: Goal) -> Result<Outcome, EquilibriumError> {
     let free = assembly.dead.len();
     let mut program = Program { cost: assembly.dead.iter().map(|load| -load).collect(), ..Program::default() };
     let mut normalisation: Vec<(usize, f64)> = Vec::new();
@@ -153,13 +149,7 @@ impl Program {
         column
     }
 
-    fn point(
-        &mut self,
-        (joint, point): (&Joint, &Point),
-        strength: &Cone,
-        is_pulled: bool,
-        grows: impl FnOnce(usize),
-    ) {
+    fn point(&mut self, (joint, point): (&Joint, &Point), strength: &Cone, is_pulled: bool, grows: impl FnOnce(usize)) {
         let Cone { slope, base, growth, tension } = *strength;
         if !point.counts() {
             return self.places.push(Rows::None);

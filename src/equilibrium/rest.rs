@@ -88,9 +88,7 @@ impl<'a> Drift<'a> {
 
     /// Forces at the points.
     pub fn forces(&self, State { v, at }: &State) -> Vec<Vector3<f64>> {
-        let force = |(joint, point): (&Joint, &Point)| {
-            point.strength.force(&joint.slip(point, v), at.strength)
-        };
+        let force = |(joint, point): (&Joint, &Point)| point.strength.force(&joint.slip(point, v), at.strength);
         self.assembly.each_point().map(force).collect()
     }
 
@@ -106,9 +104,7 @@ impl<'a> Drift<'a> {
 
     /// R, and the sum of the sizes of all forces on each body; a body without any has the rounding of the mean load.
     fn left(&self, v: &[f64], at: Demand) -> (Vec<f64>, Vec<f64>) {
-        let force = |(joint, point): (&Joint, &Point)| {
-            point.strength.force(&joint.slip(point, v), at.strength)
-        };
+        let force = |(joint, point): (&Joint, &Point)| point.strength.force(&joint.slip(point, v), at.strength);
         let (left, mut sizes) = self.assembly.left(self.assembly.each_point().map(force), at.live);
         let total: f64 = self.assembly.loads(at.live).chunks(6).map(largest).sum();
         sizes.iter_mut().for_each(|size| *size = size.clamp(f64::EPSILON, CLAMPED * total));

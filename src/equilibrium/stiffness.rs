@@ -102,7 +102,12 @@ impl Stiffness {
     pub fn solve(&mut self, load: &[f64]) -> Vec<f64> {
         let mut column = Mat::from_fn(load.len(), 1, |i, _| load[i]);
         let stack = MemStack::new(&mut self.memory);
-        LuRef::new_unchecked(&self.symbolic, &self.factors).solve_in_place_with_conj(Conj::No, column.as_mut(), Par::Seq, stack);
+        LuRef::new_unchecked(&self.symbolic, &self.factors).solve_in_place_with_conj(
+            Conj::No,
+            column.as_mut(),
+            Par::Seq,
+            stack,
+        );
         (0..load.len()).map(|i| column[(i, 0)]).collect()
     }
 }

@@ -64,7 +64,7 @@ def factors(ids, rests, falls, patience, clamped=False):
     seconds = time.perf_counter() - started
     bound = potential_particles.limit_analysis("strength", dilatant=True).factor
     row = {"blocks": len(ids), "contacts": len(found.contacts), "factor": found.factor, "associated": bound,
-           "programs": found.programs, "seconds_of_programs": seconds}
+           "solves": found.solves, "seconds_of_programs": seconds}
     print(row, flush=True)
     O.saveTmp("rest")
     started, tried = time.perf_counter(), []

@@ -88,6 +88,39 @@ found = limit_analysis("load", loads={1: ((weight, 0, 0), (0, -0.5 * HEIGHT * we
 check.close(found.factor, 0.6, 1e-4, "a lasting force presses, a live force and torque push at the foot")
 check.true(limit_analysis("load", push=(1, 0, 0), dilatant=True).factor >= 0.6 - 1e-4, "the bound is above")
 
+# The bound comes with every factor, and what bears it.
+block_on(friction=0.6, angle=0.2)
+found = limit_analysis("strength")
+check.true(found.factor <= found.bound * (1 + 1e-6) and found.may_stand, f"bounded: {found}")
+check.close(found.largest, math.cos(0.2) * math.hypot(1, math.tan(0.2)), 1e-4, "one contact carries the weight")
+
+# A polygon with a sharp point is all there: a triangle of 1 by 25.
+O.reset()
+O.materials.append(ConicJointMat(young=1e9, poisson=0.3, density=1000, frictionAngle=0.5))
+O.bodies.append(floor("wall"))
+corners = [(0, -0.5, 0), (0, 0.5, 0), (25, 0, 0)]
+prism = shapes.from_vertices([(x, y, z) for x, y, _ in corners for z in (0, 1)], r=ROUNDING, k=0)
+O.bodies.append(potential_particles.body(prism, position=(0, 0, -1e-5)))
+O.engines = [ForceResetter(), InsertionSortCollider([PotentialParticle2AABB(), Bo1_Wall_Aabb()]),
+             InteractionLoop([Ig2_Wall_ConicPP_ScGeom(patch=True)], [Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()],
+                             [Law2_ScGeomConicPP_ConicJointPhys()]), NewtonIntegrator(gravity=(0, 0, -9.81))]
+O.dt = 1e-7
+O.step()
+held = np.ptp(limit_analysis().corners, axis=0)
+check.true(held[0] > 24.0, f"the point of a triangle of 25 is at {held[0]:.4g}")
+
+# By simulation: a block on a slope, and one that is pushed until it slides.
+for question, angle, expected in (("strength", 0.3, 0.6 / math.tan(0.3)), ("load", 0.0, 0.6)):
+    block_on(friction=0.6, angle=angle, height=0.3, restitution=0.1)
+    O.dt = 0.5 * potential_particles.critical_time_step()
+    O.run(int(0.3 / O.dt), wait=True)
+    place = Vector3(O.bodies[1].state.pos)
+    found = potential_particles.factor_by_simulation(question, push=(1, 0, 0), tolerance=0.03, progress=False)
+    check.true(found.stands < expected < found.falls and found.falls - found.stands < 0.03 * found.falls,
+               f"{question} by simulation: {found} for {expected:.4f}")
+    check.equal(O.bodies[1].state.pos, place, f"{question}: the scene is as it was")
+check.raises(ValueError, lambda: potential_particles.factor_by_simulation("stands"), "no factor", "has no factor")
+
 # What has no answer is refused by name.
 for change, text in (
     (lambda: limit_analysis("falls"), "'falls' is unknown"), (lambda: limit_analysis("load"), "live load"),

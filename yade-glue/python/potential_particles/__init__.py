@@ -51,6 +51,7 @@ from .measures import (body_stresses, coordination_number, extrema, fabric_tenso
 from .outside import protect_runs
 from .packing import add_packing, pack
 from .saves import save
+from .simulated import factor_by_simulation
 from .specimen import grading_curve, sampled_porosity
 from .start import start_from
 from .time_step import critical_time_step, time_stepper
@@ -60,7 +61,7 @@ __version__ = "0.2.0"
 __all__ = [
     "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
     "bond_contacts", "check", "clump", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
-    "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "plot_equilibrium",
+    "factor_by_simulation", "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "plot_equilibrium",
     "porosity", "prepare", "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "start_from",
     "stress", "time_stepper", "to_lammps", "use_joints"
 ]

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Limit analysis of the scene as it stands: does it stand, how much more could it bear, how much weaker could its
-joints be? By the library's cone programs (docs/equilibrium.md), without a step.
+joints be? On elastic joints (docs/equilibrium.md), without a step.
 """
 import ctypes
 import dataclasses
@@ -19,6 +19,8 @@ FLAT = 0.02
 SAME = 1e-9
 # A scene is at rest if its bodies are slower than this part of the speed of a fall by their own size.
 SLOW = 0.01
+# The least stiffness across a contact over that along its normal: without any nothing would hold bodies.
+SOFT = 1e-6
 # A contact carries nothing if its force is below this part of the largest one, to which forces are balanced.
 NOTHING = 1e-6
 
@@ -32,42 +34,48 @@ class Body(ctypes.Structure):
 class _Contact(ctypes.Structure):
     _fields_ = [("bodies", ctypes.c_uint64 * 2), ("corner_count", ctypes.c_uint64), ("normal", ctypes.c_double * 3)]
     _fields_ += [(name, ctypes.c_double) for name in ("area", "friction", "cohesion", "tension")]
+    _fields_ += [("stiffness", ctypes.c_double * 2), ("initial", ctypes.c_double * 3)]
 
 
 class _Result(ctypes.Structure):
-    _fields_ = [("stands", ctypes.c_uint32), ("programs", ctypes.c_uint32)]
-    _fields_ += [(name, ctypes.c_double) for name in ("factor", "unbalanced", "excess")]
+    _fields_ = [("stands", ctypes.c_uint32), ("may_stand", ctypes.c_uint32)]
+    _fields_ += [(name, ctypes.c_double) for name in ("factor", "bound", "unbalanced", "excess", "largest")]
+    _fields_ += [("solves", ctypes.c_uint64)]
 
 
 @dataclasses.dataclass(frozen=True, repr=False)
 class Equilibrium:
     """Forces in equilibrium, and the motion at the limit."""
     question: str
-    stands: bool  #: whether forces in equilibrium exist; of a factor: for any factor
+    stands: bool  #: whether bodies come to rest; of a factor: with any factor
+    may_stand: bool  #: whether any forces hold them, where joints open as they slip
     factor: float  #: load factor or factor of safety; 0 for "stands"
+    bound: float  #: that of joints that open as they slip, which none exceeds; inf without a limit, nan if not found
     contacts: list  #: (id1, id2) of the contacts
     corners: np.ndarray  #: (n, 3), world frame
     contact_of_corner: np.ndarray  #: (n,), index in contacts
     forces: np.ndarray  #: (n, 3), on body id2 at each corner; 0 where nothing stands
     velocities: dict  #: {id: (linear, angular)} of the mechanism, the fastest corner at 1; 0 where it stands
     unbalanced: float  #: the largest force that is left on a body, over the mean load of one
-    excess: float  #: the largest friction beyond its strength at a corner, over the mean load of a body
-    programs: int  #: number of cone programs
+    excess: float  #: the largest friction beyond its strength, over the mean load of a body
+    largest: float  #: the largest force of a contact over the mean load of a body: far above 1 where blocks clamp
+    solves: int  #: number of matrices that were factorised, or of cone programs
     used: np.ndarray  #: (contacts,) share of friction and cohesion that is used; 0 where a contact carries nothing
 
     def __repr__(self):
         said = "stands" if self.stands else "falls"
-        factor = "" if self.question == "stands" or not self.stands else f", factor {self.factor:.6g}"
-        return f"<Equilibrium: {said}{factor}; {len(self.contacts)} contacts, {self.programs} programs>"
+        factor = f", factor {self.factor:.6g}, at most {self.bound:.6g}"
+        factor = "" if self.question == "stands" or not self.stands else factor
+        return f"<Equilibrium: {said}{factor}; {len(self.contacts)} contacts>"
 
 
 def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
-    """Whether forces at the contacts of the scene, as they are, can hold all bodies. No step is made.
+    """Whether the bodies of the scene come to rest on their contacts as they are, loaded from nothing. No step is made.
 
     question: "stands"; "load", for the largest multiple of the live loads that can be borne; "strength", for the
     factor of safety on the tangents of friction angles and on cohesion. push: (3,), a live load of each body's weight
     in this direction, as an earthquake in shares of gravity. loads: {id: (force, torque)}, other live loads, torque
-    about the centre. dilatant=True: joints open as they slip, for a bound by one program.
+    about the centre. dilatant=True: joints open as they slip, which gives the bound with its forces and mechanism.
 
     Dead loads are weights (NewtonIntegrator.gravity) and lasting forces (O.forces.setPermF). Bodies with all
     degrees of freedom blocked are held. Joints (ConicJointMat) have their cohesion and tensile strength as they stand:
@@ -75,7 +83,7 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
 
     Returns an Equilibrium. ValueError: an unknown question, a scene without contacts, in motion or periodic, bodies
     that are blocked in part or touch nothing, overlaps beyond the rounding radius, or a factor that is infinite.
-    RuntimeError: the programs did not converge; the scene may stand or fall.
+    RuntimeError: no answer was found; the scene may stand or fall.
     """
     import yade
     asked(question)
@@ -96,18 +104,20 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
     ids = sorted(touched)
     place = {body: index for index, body in enumerate(ids)}
     bodies = [_body(yade.O, one, gravity, direction, live.get(one)) for one in ids]
-    rows = [((place[first], place[second]), contact.geom.normal, _strength(contact.phys), corners, area)
+    rows = [((place[first], place[second]), contact.geom.normal, _strength(contact.phys), corners, area,
+             _stiffness(contact.phys))
             for (first, second), contact, corners, area in found]
     return solved(question, dilatant, bodies, ids, rows, [(one[1].id1, one[1].id2) for one in found])
 
 
 def solved(question, dilatant, bodies, names, rows, pairs):
     """The Equilibrium of rigid bodies [Body] with these names. rows, one a contact: the places of its two bodies, the
-    normal from the first to the second, (friction, cohesion, tension), corners (n, 3) and area; pairs: their names.
+    normal from the first to the second, (friction, cohesion, tension), corners (n, 3), area and stiffness along the
+    normal and across it; pairs: their names.
     """
     contacts = (_Contact * len(rows))()
-    for row, (of, normal, (friction, cohesion, tension), corners, area) in zip(contacts, rows):
-        row.bodies[:], row.normal[:] = of, normal
+    for row, (of, normal, (friction, cohesion, tension), corners, area, stiffness) in zip(contacts, rows):
+        row.bodies[:], row.normal[:], row.stiffness[:] = of, normal, stiffness
         row.corner_count, row.area = len(corners), area
         row.friction, row.cohesion, row.tension = friction, cohesion, tension
     counts = [len(one[3]) for one in rows]
@@ -116,10 +126,10 @@ def solved(question, dilatant, bodies, names, rows, pairs):
     library.refuse("pp_equilibrium", ctypes.c_uint32(QUESTIONS[question]), ctypes.c_uint32(bool(dilatant)),
                    (Body * len(bodies))(*bodies), len(bodies), contacts, len(rows), corners, len(corners),
                    ctypes.byref(result), forces, velocities)
-    return Equilibrium(question, bool(result.stands), result.factor, pairs, corners,
+    return Equilibrium(question, bool(result.stands), bool(result.may_stand), result.factor, result.bound, pairs, corners,
                        np.repeat(np.arange(len(rows)), counts), forces,
                        {name: (row[:3], row[3:]) for name, row in zip(names, velocities)}, result.unbalanced,
-                       result.excess, result.programs, _used(rows, np.split(forces, np.cumsum(counts)[:-1])))
+                       result.excess, result.largest, int(result.solves), _used(rows, np.split(forces, np.cumsum(counts)[:-1])))
 
 
 def _used(rows, forces):
@@ -130,7 +140,7 @@ def _used(rows, forces):
     totals = np.array([of.sum(axis=0) for of in forces])
     sizes = np.linalg.norm(totals, axis=1)
     for place in np.flatnonzero(sizes > NOTHING * sizes.max()):
-        _, normal, (friction, cohesion, _), _, area = rows[place]
+        _, normal, (friction, cohesion, _), _, area, _ = rows[place]
         normal = np.array(normal) / np.linalg.norm(normal)
         pressing = totals[place] @ normal
         strength = friction * max(pressing, 0.0) + cohesion * area
@@ -194,6 +204,13 @@ def _strength(physics):
     return friction, physics.cohesion, physics.tensileStrength if physics.bonded else 0.0
 
 
+def _stiffness(physics):
+    """Per area along the normal and across it, of which ratios alone count; that of points is not known by area."""
+    if hasattr(physics, "normalStiffness"):
+        return physics.normalStiffness, max(physics.shearStiffness, SOFT * physics.normalStiffness)
+    return 1.0, max(physics.ks / physics.kn, SOFT) if physics.kn > 0.0 else 1.0
+
+
 def _polygon(contact):
     """(ids of what moves, contact, corners (n, 3), area): the part of the plane across the normal at the contact point
     in which both bodies are flat; the point itself where there is none.
@@ -209,8 +226,9 @@ def _polygon(contact):
     bounds = [row for body, sense in zip(pair, (1, -1)) for row in _bounds(body, sense * normal)]
     corners = np.array([point])
     if all(one is not None for one in bounds):
-        reach = 2.0 * max((abs(offset - n @ point) for n, offset in bounds), default=0.0) or 1.0
-        flat = clipped(normal, point, bounds, 10.0 * reach)
+        far = [np.linalg.norm(point - body.state.pos) + body.shape.boundingRadius
+               for body in pair if hasattr(body.shape, "boundingRadius")]
+        flat = clipped(normal, point, bounds, 2.0 * min(far))
         corners = flat if len(flat) else corners
     area = 0.5 * np.linalg.norm(np.cross(corners[1:-1] - corners[0], corners[2:] - corners[0]).sum(axis=0))
     return tuple(owner(body).id for body in pair), contact, corners, float(area)

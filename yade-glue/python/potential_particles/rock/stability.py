@@ -15,7 +15,7 @@ from .scene import loads_of, marked
 
 def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0, tension=0.0, density=2600.0,
                    gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False):
-    """Whether forces on the faces of a RockMass can hold its blocks: an Equilibrium, as of
+    """Whether the blocks of a RockMass come to rest on their faces, loaded from nothing: an Equilibrium, as of
     potential_particles.limit_analysis(). Its bodies are the pieces of the mass, named by their first block.
 
     held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES). removed: blocks that are
@@ -40,7 +40,8 @@ def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0,
         if apart and area > LEAST_SHARE * mass.faces["area"][faces[0]]:
             entry = mass.set_of_face[faces[0]]
             strength = math.tan(math.radians(friction(entry))), cohesion(entry), tension(entry)
-            rows.append((of, mass.faces["plane"][faces[0], :3], strength, _shared(mass, faces), float(area)))
+            rows.append((of, mass.faces["plane"][faces[0], :3], strength, _shared(mass, faces), float(area),
+                         (1.0, 1.0)))
             pairs.append(tuple(numbers[one][0] for one in of))
     if not rows:
         raise ValueError("no free block of the mass touches another one: hold fewer blocks")
