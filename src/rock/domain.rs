@@ -19,7 +19,7 @@ const FAR: [f64; 2] = [1e4, 1e8];
 
 /// Half extents of domains. Fifth powers of lengths, as moments of inertia are, and those of blocks a millionth as
 /// large, are doubles with all their digits.
-const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
+pub(crate) const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
 
 /// A unit normal, and the height of its plane above some origin.
 pub(crate) type Oriented = (Vector3<f64>, f64);

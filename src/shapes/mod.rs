@@ -13,6 +13,7 @@
 //! | `sharp_body` | a convex body of points or half-spaces: faces, corners, volume, centroid |
 //! | `surface` | whether triangles are the whole surface of their convex hull |
 //! | `principal_frame` | principal axes as near to the given ones as they can be |
+//! | `touching` | planes that let a particle touch its faces where many share a rounding |
 //! | `rounding` | from a sharp body to a particle about its own centroid |
 //! | `solids` | the builders |
 //!
@@ -36,6 +37,7 @@ mod rounding;
 mod sharp_body;
 mod solids;
 mod surface;
+mod touching;
 
 pub use error::ShapeError;
 pub use rounding::{Rounding, Shape};

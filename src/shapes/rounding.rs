@@ -15,6 +15,7 @@
 use super::error::{ShapeError, positive, within};
 use super::principal_frame::principal_orientation;
 use super::sharp_body::SharpBody;
+use super::touching::Touching;
 use crate::linalg::root::MOST_STEPS;
 use crate::particle::mass_properties::{self, MASS_TOLERANCE, MassProperties};
 use crate::particle::particle::Particle;
@@ -133,9 +134,13 @@ impl Shape {
     pub(crate) fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: f64) -> Result<Self, ShapeError> {
         let size = body.size()?;
         let (r, k, shadow_radius) = rounding.lengths(size)?;
+        let mut touching = Touching::default();
         let definition = |centre: &Vector3<f64>| {
             let shadow_radius = shadow_radius.unwrap_or_else(|| body.farthest(centre));
-            Definition { planes: lowered(&body.heights(centre), r, k, shadow_radius), r, k, shadow_radius }
+            let faces = body.heights(centre);
+            let planes = lowered(&faces, r, k, shadow_radius);
+            let planes = touching.moved(&faces, planes, |planes| Particle::new(planes, r, k, shadow_radius).ok());
+            Definition { planes, r, k, shadow_radius }
         };
         let shape = Self::settled(definition, body.centroid, size, tolerance)?;
         Ok(Self { centroid: shape.centroid + body.origin, ..shape })
@@ -143,7 +148,7 @@ impl Shape {
 
     /// With its centroid as its centre, in principal axes.
     pub(super) fn settled(
-        definition: impl Fn(&Vector3<f64>) -> Definition,
+        mut definition: impl FnMut(&Vector3<f64>) -> Definition,
         mut centre: Vector3<f64>,
         size: f64,
         tolerance: f64,

@@ -8,7 +8,7 @@ use crate::particle::largest_ball;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::polyhedron::OF_CUBE;
 use crate::particle::volume::{self, Enclosed};
-use crate::rock::{enclosed, unit_planes};
+use crate::rock::{EXTENTS, enclosed, unit_planes};
 use nalgebra::{Matrix3, Vector3};
 
 /// A centroid nearer to the origin than this share of the farthest corner's distance is set to it: sums over the faces
@@ -45,7 +45,11 @@ impl SharpBody {
     pub fn of_planes(half_spaces: &[Plane]) -> Result<Self, ShapeError> {
         refuse_many(half_spaces.len())?;
         let units = unit_planes(half_spaces).map_err(ShapeError::NoPlane)?;
-        let (middle, polyhedron) = enclosed(&units)?;
+        let (middle, polyhedron) = enclosed(&units).map_err(|error| {
+            // Beyond the range of sizes rounding makes them seem empty or open.
+            let farthest = units.iter().map(|(_, offset)| offset.abs()).fold(0.0, f64::max);
+            if EXTENTS.contains(&farthest) || farthest == 0.0 { error.into() } else { ShapeError::Extent(farthest) }
+        })?;
         let (corners, outlines) = polyhedron.numbered();
         let fan = |(_, outline): &(usize, Vec<u32>)| -> Vec<[u32; 3]> {
             outline[1..].windows(2).map(|pair| [outline[0], pair[0], pair[1]]).collect()
