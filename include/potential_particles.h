@@ -72,6 +72,21 @@
 // PP_ABI_VERSION.
 #define PP_ABI_VERSION 3
 
+// Forms of pp_particle_round: a cylinder along z, {radius, height}.
+#define PP_ROUND_CYLINDER 0
+
+// A cone along z, its tip above: {radius, height}.
+#define PP_ROUND_CONE 1
+
+// An ellipsoid of semi-axes along x, y, z, {a, b, c}: exact, of 6 planes.
+#define PP_ROUND_ELLIPSOID 2
+
+// All points within a distance of a segment along z, {radius, length}: exact, of 6 planes.
+#define PP_ROUND_CAPSULE 3
+
+// (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, {a, b, c, n, e}: n and e from 0.1 to 2.
+#define PP_ROUND_SUPERQUADRIC 4
+
 // Question of pp_equilibrium: do forces exist that hold all bodies?
 #define PP_STANDS 0
 
@@ -387,8 +402,10 @@ typedef struct pp_built {
     // Quaternion (w, x, y, z) of unit length, w >= 0, that turns from the particle's frame, whose axes are
     // principal axes of inertia, to the given one.
     double orientation[4];
-    // Of the particle in its own frame, to 1e-6.
+    // Of the particle in its own frame, to 1e-6; with more than 30 planes to 1e-4.
     struct pp_mass_properties mass;
+    // Volume of what it was made of: of the sharp body, or of the round one that was asked for.
+    double sharp_volume;
 } pp_built;
 
 // One closest point alone; frames and units as in struct pp_contact.
@@ -1119,7 +1136,7 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
 // are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
 // are left out.
 // rounding: the rounding radius r over the size, in (0, 0.5). The size is the diameter of the largest ball
-// between the planes. k: sphericity, in [0, 1]. shadow: R over the size, or 0 for the distance from the
+// between the planes. k: sphericity, in [0, 1). shadow: R over the size, or 0 for the distance from the
 // centroid to the farthest corner. pp_particle_from_polyhedron takes lengths.
 // out: receives the particle; release it with pp_particle_free.
 // built: receives how it stands in the given frame, and its mass properties (may be NULL).
@@ -1156,6 +1173,27 @@ pp_status pp_particle_from_points(const double *points,
                                   struct pp_built *built,
                                   char *message,
                                   size_t message_size);
+
+// Builds a particle of the size of a round form, about its centroid, which is near the origin.
+//
+// form: PP_ROUND_CYLINDER or another of these constants. sizes: as they say, lengths; five are read.
+// planes: sides of a cylinder or cone, at most so many planes of a superquadric; 0 for 48. r: rounding radius,
+// length, or 0 for what keeps the size. k and shadow_radius: as of pp_particle_from_polyhedron. Ellipsoids and
+// capsules take none of these four.
+// All else as pp_particle_from_faces.
+// Errors: PP_NULL_POINTER, PP_BAD_INDEX (form), PP_UNBOUNDED (a size or number out of range: the message
+// says which), and those of pp_particle_new.
+// Pointers: sizes points to 5 doubles, out to one pointer, built to one struct, message to message_size bytes.
+pp_status pp_particle_round(uint32_t form,
+                            const double *sizes,
+                            size_t planes,
+                            double r,
+                            double k,
+                            double shadow_radius,
+                            struct pp_particle **out,
+                            struct pp_built *built,
+                            char *message,
+                            size_t message_size);
 
 // Fills settings with the defaults.
 //
@@ -1912,9 +1950,9 @@ pp_status pp_polyhedron_properties(const struct pp_polyhedron *polyhedron,
 // Rounds a polyhedron: a particle whose faces are where its faces are, about its centroid and along its
 // principal axes.
 //
-// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1].
+// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1).
 // shadow_radius: R, length, or 0 for the distance from the centroid to the farthest corner.
-// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 1e-6 is usual.
+// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 0 for 1e-6, or 1e-4 of more than 30 planes.
 // out: receives the particle; release it with pp_particle_free.
 // built: receives how it stands in the frame of the polyhedron, and its mass properties (may be NULL).
 // message: receives, on failure, a sentence that names the value (may be NULL).
@@ -1929,6 +1967,26 @@ pp_status pp_particle_from_polyhedron(const struct pp_polyhedron *polyhedron,
                                       struct pp_built *built,
                                       char *message,
                                       size_t message_size);
+
+// A particle of at most so many planes that comes as near to a polyhedron of many faces as it can, and with a
+// given volume: for scans. About its centroid and along its principal axes.
+//
+// planes: from 4 to 1000. volume: length^3, or 0 for that of the polyhedron. r: 0 for what comes nearest. All
+// else as pp_particle_from_polyhedron.
+// Errors: PP_NULL_POINTER, PP_BAD_SETTING (tolerance), PP_UNBOUNDED (planes, volume), and those of
+// pp_particle_new.
+// Pointers: out points to one pointer, built to one struct, message to message_size bytes.
+pp_status pp_particle_fitted(const struct pp_polyhedron *polyhedron,
+                             size_t planes,
+                             double volume,
+                             double r,
+                             double k,
+                             double shadow_radius,
+                             double tolerance,
+                             struct pp_particle **out,
+                             struct pp_built *built,
+                             char *message,
+                             size_t message_size);
 
 // Whether triangles, three numbers of points each, from 0, are a closed surface: each edge joins two of them.
 //

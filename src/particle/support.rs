@@ -9,46 +9,46 @@ use crate::particle::ray_cast;
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, Vector3};
 
-/// Curvature that is added in all directions, as a share of the trace of the Hessian.
-const ADDED: f64 = 1e-5;
+/// Curvatures that are added in all directions, as shares of the trace of the Hessian: the next where one leads nowhere.
+const ADDED: [f64; 3] = [1e-11, 1e-5, 1e-2];
 
-/// Steps that gain less than this share of the height are the last; most steps, and most halvings of one.
-const LITTLE: f64 = 1e-13;
-const MOST_STEPS: usize = 60;
-const MOST_HALVINGS: usize = 30;
+/// Most steps, and most halvings of one.
+const MOST_STEPS: usize = 100;
+const MOST_HALVINGS: usize = 20;
 
-/// The point of the surface that lies farthest along a unit vector, sought from a point near it; `None` where a ray from
-/// the centre finds no surface.
+/// How far the normal of the surface may be from u in the end, and where nothing rises any more: the height is missed by
+/// the curvature times half the square of that.
+const ALONG: f64 = 1e-8;
+const NEARLY: f64 = 1e-4;
+
+/// The point of the surface that lies farthest along a unit vector, sought from a point near it; `None` where rounding
+/// leaves no answer.
 pub(crate) fn farthest(shape: &Shape, u: &Vector3<f64>, near: &Vector3<f64>) -> Option<Vector3<f64>> {
     let on_surface = |x: &Vector3<f64>| {
         let ray = x.try_normalize(0.0)?;
         Some(ray_cast::distance_near(shape, &Vector3::zeros(), &ray, x.norm())? * ray)
     };
     let mut x = on_surface(near)?;
-    let mut height = u.dot(&x);
     for _ in 0..MOST_STEPS {
         let here = potential::local(shape, &x);
-        let hessian = here.hessian.matrix();
-        let curved = (hessian + Matrix3::from_diagonal_element(ADDED * hessian.trace())).try_inverse()?;
-        let (of_slope, of_height) = (curved * here.gradient, curved * u);
-        let step = (here.gradient.dot(&of_slope) / u.dot(&of_height)).sqrt() * of_height - of_slope;
-        let (mut share, mut found) = (1.0, None);
-        for _ in 0..MOST_HALVINGS {
-            let candidate = on_surface(&(x + share * step))?;
-            if u.dot(&candidate) > height {
-                found = Some(candidate);
-                break;
-            }
-            share *= 0.5;
+        let off = (here.gradient.try_normalize(0.0)? - u).norm();
+        if off <= ALONG {
+            return Some(x);
         }
-        let Some(better) = found else { break };
-        let gain = u.dot(&better) - height;
-        (x, height) = (better, height + gain);
-        if gain <= LITTLE * height.abs() {
-            break;
+        let (hessian, height) = (here.hessian.matrix(), u.dot(&x));
+        let rises = |added: f64| {
+            let curved = (hessian + Matrix3::from_diagonal_element(added * hessian.trace())).try_inverse()?;
+            let (of_slope, of_height) = (curved * here.gradient, curved * u);
+            let step = (here.gradient.dot(&of_slope) / u.dot(&of_height)).sqrt() * of_height - of_slope;
+            let shares = (0..MOST_HALVINGS).map(|halvings| 0.5f64.powi(halvings as i32));
+            shares.filter_map(|share| on_surface(&(x + share * step))).find(|candidate| u.dot(candidate) > height)
+        };
+        match ADDED.into_iter().find_map(rises) {
+            Some(better) => x = better,
+            None => return (off <= NEARLY).then_some(x),
         }
     }
-    Some(x)
+    None
 }
 
 #[cfg(test)]

@@ -1,5 +1,6 @@
 //! Why input makes no shape.
 
+use super::rounding::MOST_ROUNDED;
 use crate::particle::error::ParticleError;
 use crate::particle::plane::MAX_PLANES;
 use crate::rock::{EXTENTS, RockError};
@@ -50,6 +51,9 @@ pub enum ShapeError {
          its planes are from the origin"
     )]
     Open,
+    /// More faces than are rounded.
+    #[error("{0} faces are more than the {MOST_ROUNDED} that are rounded: take fewer, as fitted() does")]
+    TooManyFaces(usize),
     /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at
     /// which faces are one.
     #[error("the planes enclose a body that is flat, to 1e-6 of its extent: move them apart")]
