@@ -28,8 +28,7 @@
  *             plane by an angle in radians.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_pair_state or an output belongs to one call at a time. Nothing is shared between calls.
- *             Only pp_contact_detect_batch (and _2d) and pp_pack start threads, and end them before they
- *             return.
+ *             Only functions that take a number of threads start any, and end them before they return.
  *   Errors    No panic and no exception leaves the library, and nothing is printed. Where memory runs
  *             out the process is aborted, as by all of Rust.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
@@ -210,9 +209,14 @@
 #define PP_FLAG_NORMAL_BY_BOUNDARY 2048
 
 // Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
-// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
-// midway's overlap is.
+// part along these, up to what the faces have in common; or they are farther apart along the surface than
+// across it, as with faces that are nearly flat. It is the answer by definition, but not a depth: midway's
+// overlap is.
 #define PP_FLAG_FREE 4096
+
+// The overlap is larger than the depth length of one of the particles (r for k = 0, R for a sphere): the bodies
+// are deeper in each other than the potential is made for, and normal and overlap may jump.
+#define PP_FLAG_DEEP 8192
 
 // The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
 // turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
@@ -920,8 +924,8 @@ typedef struct pp_block {
     double volume;
     // Centroid.
     double centroid[3];
-    // Inertia about the centroid for density 1: xx, yy, zz, xy, xz, yz, with products as they stand in the
-    // matrix.
+    // Inertia about the centroid for density 1: xx, yy, zz, xy, yz, zx, as in pp_mass_properties, with products
+    // as they stand in the matrix.
     double inertia[6];
     // Index of its first face; the others follow.
     uint64_t first_face;
@@ -1851,8 +1855,8 @@ pp_status pp_polyhedron_from_faces(const double *planes,
 //
 // known: the length to which the points are known, 0 for all digits. Triangles that lie that close to the plane
 // of a larger one, or within 1e-6 of the extent, are one face with it.
-// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane),
-// PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_BAD_SETTING (known is negative or not finite), PP_UNBOUNDED (fewer
+// than four points, or all in one plane), PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
 // Pointers: points points to 3*count doubles, out to one pointer, message to message_size bytes.
 pp_status pp_polyhedron_from_points(const double *points,
                                     size_t count,

@@ -156,6 +156,7 @@ impl Refusal for ShapeError {
         match self {
             Self::OutOfRange { name: "r" | "rounding", .. } | Self::RadiusTooLarge { .. } => PP_BAD_ROUNDING_RADIUS,
             Self::OutOfRange { name: "k", .. } => PP_BAD_SPHERICITY,
+            Self::OutOfRange { name: "known", .. } => PP_BAD_SETTING,
             Self::OutOfRange { name: "R", .. } | Self::NoCentre { .. } => PP_BAD_SHADOW_RADIUS,
             Self::PointNotFinite(_) | Self::NoSuchPoint { .. } => PP_BAD_POINT,
             Self::NoPlane(_) => PP_PLANE_ZERO_NORMAL,

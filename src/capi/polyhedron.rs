@@ -48,8 +48,8 @@ pub unsafe extern "C" fn pp_polyhedron_from_faces(
 ///
 /// known: the length to which the points are known, 0 for all digits. Triangles that lie that close to the plane
 /// of a larger one, or within 1e-6 of the extent, are one face with it.
-/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane),
-/// PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
+/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_BAD_SETTING (known is negative or not finite), PP_UNBOUNDED (fewer
+/// than four points, or all in one plane), PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
 /// Pointers: points points to 3*count doubles, out to one pointer, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_polyhedron_from_points(

@@ -18,7 +18,10 @@ use std::f64::consts::{PI, TAU};
 /// Of the size: the r that are tried. Below, overlaps would have to be tiny; beyond, nothing gets rounder.
 const SHARES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.45];
 
-/// Most planes: the time goes with the third power of their number.
+/// Planes beyond which they do not turn: so many touch the hull all around.
+const MOST_TURNED: usize = 100;
+
+/// Most planes.
 const MOST_PLANES: usize = 1_000;
 
 /// Directions along which the height of the hull is to be reached.
@@ -111,6 +114,24 @@ pub(crate) fn of_hull(
         rays(SAMPLES).chain(outer.planes.iter().map(|plane| plane.normal)).map(|ray| (ray, support(ray).offset));
     let centre = outer.centroid;
     let samples: Vec<Height> = samples.map(|(ray, height)| (ray, height - ray.dot(&centre))).collect();
+    let shape = if outer.planes.len() > MOST_TURNED {
+        let shape = Shape::of_body(&SharpBody { origin: Vector3::zeros(), ..outer }, rounding, tolerance)?;
+        Shape { centroid: shape.centroid + hull.centroid + hull.origin, ..shape }
+    } else {
+        nearest(&outer, &samples, rounding, tolerance)?
+    };
+    let factor = (volume / shape.mass.volume).cbrt();
+    Ok(Shape { sharp_volume: volume, ..shape.resized(factor)? })
+}
+
+/// The shape of the faces of a body that comes nearest to heights above its centroid.
+fn nearest(
+    outer: &SharpBody,
+    samples: &[Height],
+    rounding: &Rounding,
+    tolerance: Option<f64>,
+) -> Result<Shape, ShapeError> {
+    let centre = outer.centroid;
     let size = outer.size()?;
     let shares = if rounding.is_chosen() { &SHARES[..] } else { &[f64::NAN] };
     let mut best: Option<Fit> = None;
@@ -119,7 +140,7 @@ pub(crate) fn of_hull(
         let (r, k, shadow_radius) = rounding.lengths(size)?;
         let shadow_radius = shadow_radius.unwrap_or_else(|| outer.farthest(&centre));
         let planes = lowered(&outer.heights(&centre), r, k, shadow_radius);
-        let fit = Fit::of(Definition { planes, r, k, shadow_radius }, &samples)?;
+        let fit = Fit::of(Definition { planes, r, k, shadow_radius }, samples)?;
         if best.as_ref().is_none_or(|best| fit.missing < best.missing) {
             best = Some(fit);
         }
@@ -131,8 +152,7 @@ pub(crate) fn of_hull(
     };
     let tolerance = tolerance.unwrap_or_else(|| usual_tolerance(found.planes.len()));
     let shape = Shape::settled(moved, centre, size, tolerance)?;
-    let factor = (volume / shape.mass.volume).cbrt();
-    Ok(Shape { centroid: shape.centroid + outer.origin, sharp_volume: volume, ..shape.resized(factor)? })
+    Ok(Shape { centroid: shape.centroid + outer.origin, ..shape })
 }
 
 /// Planes, and the root of the mean square of what is missing to the heights.

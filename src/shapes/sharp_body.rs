@@ -1,6 +1,6 @@
 //! A sharp convex body, of points or of half-spaces: its faces, corners, volume and centroid.
 
-use super::error::ShapeError;
+use super::error::{ShapeError, within};
 use super::hull;
 use crate::particle::coplanar::{self, Distinct, Face};
 use crate::particle::error::ParticleError;
@@ -120,6 +120,7 @@ impl HullOfPoints {
     /// # Errors
     /// Points that are not finite, fewer than four, or all in a plane; too many faces.
     pub fn new(points: &[Vector3<f64>], known: f64) -> Result<Self, ShapeError> {
+        within(known, known >= 0.0, "known", "finite and at least 0")?;
         let triangles = hull::triangles(points)?;
         let flat = ShapeError::Flat(points.len());
         let (solid, area) = measured(points, triangles.iter().map(|corners| &corners[..]));
