@@ -137,8 +137,8 @@ fn closest_points_that_are_nearly_free_are_flagged() {
     }
 }
 
-/// With cores that meet s is 0, and no gap is small beside it: what was asked for is not reached, which is flagged. Of a
-/// pair beside it that is reached.
+/// With cores that meet s is 0, and no gap is small beside it: what was asked for is not reached, which is flagged. Of
+/// a pair beside it that is reached.
 #[test]
 fn a_gap_that_is_not_reached_is_flagged() {
     let settings = Settings::default().with_gap_tolerance(1e-14);
@@ -166,12 +166,14 @@ fn a_gap_that_is_not_reached_is_flagged() {
 fn overlaps_above_the_rounding_radius_are_flagged() {
     let (cube, ball) = (cuboid([0.5; 3], 0.1), Particle::sphere(0.3).unwrap());
     for (overlap, is_deep) in [(1e-4, false), (0.09, false), (0.12, true), (0.36, true)] {
-        let contact = detect(&cube, &at(0.0, 0.0, 0.0), &cube, &at(0.1, 0.0, 1.0 - overlap), &Settings::default(), None);
+        let contact =
+            detect(&cube, &at(0.0, 0.0, 0.0), &cube, &at(0.1, 0.0, 1.0 - overlap), &Settings::default(), None);
         let contact = contact.unwrap();
         assert_eq!(contact.flags.contains(Flags::DEEP), is_deep, "{overlap}: {contact:?}");
     }
     for (away, is_deep) in [(0.59, false), (0.31, false), (0.29, true)] {
-        let contact = detect(&ball, &at(0.0, 0.0, 0.0), &ball, &at(away, 0.0, 0.0), &Settings::default(), None).unwrap();
+        let contact =
+            detect(&ball, &at(0.0, 0.0, 0.0), &ball, &at(away, 0.0, 0.0), &Settings::default(), None).unwrap();
         assert_eq!(contact.flags.contains(Flags::DEEP), is_deep, "{away}: {contact:?}");
     }
 }

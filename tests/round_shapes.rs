@@ -26,8 +26,8 @@ fn within(found: f64, right: f64, share: f64, what: &str) {
     assert!((found / right - 1.0).abs() <= share, "{what}: {found}, not {right}, by {:e}", found / right - 1.0);
 }
 
-/// Whatever the number of sides, and whether r is small or large beside them: the volume is that of the cylinder but for
-/// its rim, the height is kept, and from 24 sides on all diameters are.
+/// Whatever the number of sides, and whether r is small or large beside them: the volume is that of the cylinder but
+/// for its rim, the height is kept, and from 24 sides on all diameters are.
 #[test]
 fn cylinders_keep_their_size() {
     for (sides, radius, height, share) in [
@@ -149,8 +149,8 @@ fn superquadrics_keep_their_volume() {
     }
 }
 
-/// The hull of many points of an ellipsoid: every face is touched to 0.1 %, none is passed, and the volume is that of the
-/// hull, with few faces and with many.
+/// The hull of many points of an ellipsoid: every face is touched to 0.1 %, none is passed, and the volume is that of
+/// the hull, with few faces and with many.
 #[test]
 fn hulls_of_round_bodies_touch_their_faces() {
     for (count, share) in [(250, 0.02), (600, 0.01)] {

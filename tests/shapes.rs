@@ -299,7 +299,8 @@ fn sizes_out_of_range_are_told() {
     }
 }
 
-/// All 14,632 tetrahedra of a grid, from points and from their planes: inscribed balls of singular bases were not found.
+/// All 14,632 tetrahedra of a grid, from points and from their planes: inscribed balls of singular bases were not
+/// found.
 #[test]
 fn every_tetrahedron_of_a_grid_is_built() {
     let mut count = 0;

@@ -290,8 +290,8 @@ fn capsule(py: Python<'_>, radius: f64, length: f64) -> PyResult<PyShape> {
     PyShape::of(py, shapes::capsule(radius, length).map_err(refused)?)
 }
 
-/// A superquadric about the origin, (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, with the semi-axes a, b, c and
-/// the exponents n, e from 0.1, nearly a box, over 1, an ellipsoid, to 2, an octahedron; fitted with its volume.
+/// A superquadric about the origin, (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, with the semi-axes a, b, c
+/// and the exponents n, e from 0.1, nearly a box, over 1, an ellipsoid, to 2, an octahedron; fitted with its volume.
 ///
 /// planes: at most so many. rounding: r as a share of the size, or in its place r, a length: without both what comes
 /// nearest; k: sphericity; R: a length.
@@ -312,10 +312,11 @@ fn superquadric(
     built(py, (rounding, k, r, R), |rounding| shapes::superquadric(axes, exponents.into(), planes, rounding))
 }
 
-/// Of the convex hull of points (n, 3), as those of a scan: at most so many planes that come near to it, and its volume.
+/// Of the convex hull of points (n, 3), as those of a scan: at most so many planes that come near to it, and its
+/// volume.
 ///
-/// rounding: r as a share of the size, or in its place r, a length: without both what comes nearest; k: sphericity; R: a
-/// length. ValueError: flat points.
+/// rounding: r as a share of the size, or in its place r, a length: without both what comes nearest; k: sphericity; R:
+/// a length. ValueError: flat points.
 #[pyfunction]
 #[pyo3(signature = (points, planes=60, *, rounding=None, k=0.02, r=None, R=None))]
 #[allow(non_snake_case)]

@@ -69,8 +69,8 @@ impl Scale {
         (self.s - 1.0).abs() > self.gap
     }
 
-    /// Whether s² is known to a relative tolerance, or as well as a double holds it: with cores that meet s² is 0 and its
-    /// bounds are all that is known.
+    /// Whether s² is known to a relative tolerance, or as well as a double holds it: with cores that meet s² is 0 and
+    /// its bounds are all that is known.
     pub fn is_known_to(&self, tolerance: f64) -> bool {
         let [low, high] = [self.low * self.low, self.high * self.high];
         high - low <= larger(tolerance, OF_DOUBLE) * high

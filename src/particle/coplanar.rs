@@ -50,8 +50,8 @@ pub(crate) struct Distinct {
     pub plane_of: Vec<u32>,
 }
 
-/// The faces of a convex body with these corners that are distinct; `None` if the body is flat, or thin as a line. `known`: the length to
-/// which the corners are known; faces that lie within it are one, too.
+/// The faces of a convex body with these corners that are distinct; `None` if the body is flat, or thin as a line.
+/// `known`: the length to which the corners are known; faces that lie within it are one, too.
 pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<F>], known: f64) -> Option<Distinct> {
     let around = Around::new(corners.len(), faces);
     let extent = extent(corners);

@@ -1,23 +1,25 @@
 //! The point of a particle that lies farthest along a direction u.
 //!
-//! It maximises u·x/g(x), g the gauge of the particle: a quotient of a linear and a convex function has no other maxima.
-//! Where S is the quadratic of its active planes, the maximum is known in closed form; a step towards it that does not
-//! rise is halved. Along a flat face, where a Hessian has no curvature, a little of it keeps the point where it is.
+//! It maximises u·x/g(x), g the gauge of the particle: a quotient of a linear and a convex function has no other
+//! maxima. Where S is the quadratic of its active planes, the maximum is known in closed form; a step towards it that
+//! does not rise is halved. Along a flat face, where a Hessian has no curvature, a little of it keeps the point where
+//! it is.
 
 use crate::particle::potential;
 use crate::particle::ray_cast;
 use crate::particle::shape::Shape;
 use nalgebra::{Matrix3, Vector3};
 
-/// Curvatures that are added in all directions, as shares of the trace of the Hessian: the next where one leads nowhere.
+/// Curvatures that are added in all directions, as shares of the trace of the Hessian: the next where one leads
+/// nowhere.
 const ADDED: [f64; 3] = [1e-11, 1e-5, 1e-2];
 
 /// Most steps, and most halvings of one.
 const MOST_STEPS: usize = 100;
 const MOST_HALVINGS: usize = 20;
 
-/// How far the normal of the surface may be from u in the end, and where nothing rises any more: the height is missed by
-/// the curvature times half the square of that.
+/// How far the normal of the surface may be from u in the end, and where nothing rises any more: the height is missed
+/// by the curvature times half the square of that.
 const ALONG: f64 = 1e-8;
 const NEARLY: f64 = 1e-4;
 

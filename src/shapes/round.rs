@@ -1,8 +1,8 @@
 //! Round bodies: what is exact with few planes, and prisms whose size is that of what is round.
 //!
 //! Σ⟨n_i·x − d_i⟩² of orthogonal normals is the square of a distance: of ±x, ±y at d = 0 and ±z at d = l/2 that from a
-//! segment, whose level set is a capsule; of ±x, ±y, ±z at d = 0, with normals as long as the inverse of each semi-axis,
-//! the form of an ellipsoid.
+//! segment, whose level set is a capsule; of ±x, ±y, ±z at d = 0, with normals as long as the inverse of each
+//! semi-axis, the form of an ellipsoid.
 
 use super::error::{ShapeError, positive};
 use super::rounding::{Rounding, Shape};

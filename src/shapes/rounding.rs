@@ -81,8 +81,8 @@ impl Rounding {
     pub const SHARE: f64 = 0.05;
 
     /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1): 0 leaves faces
-    /// flat, towards 1 the shape becomes a sphere of radius R. R, the radius of the shadow sphere, is the distance from the centre to the
-    /// farthest corner.
+    /// flat, towards 1 the shape becomes a sphere of radius R. R, the radius of the shadow sphere, is the distance from
+    /// the centre to the farthest corner.
     pub fn new(share: f64, k: f64) -> Self {
         Self { r: Extent::OfSize(share), k, shadow_radius: None }
     }

@@ -1,9 +1,9 @@
 //! Planes that let a particle touch each face of its sharp body, where many of them share a rounding.
 //!
-//! A plane alone reaches its face at the foot of the perpendicular from the centre (`rounding`). Where others are active
-//! there as well, S is the sum over all of them, and the surface lies deeper: of a ball of N planes by as much as a
-//! quarter of its radius. So the planes are moved outwards by distances that are found from what is missing: the height
-//! of the particle along the normal of each face is to be that of the face.
+//! A plane alone reaches its face at the foot of the perpendicular from the centre (`rounding`). Where others are
+//! active there as well, S is the sum over all of them, and the surface lies deeper: of a ball of N planes by as much
+//! as a quarter of its radius. So the planes are moved outwards by distances that are found from what is missing: the
+//! height of the particle along the normal of each face is to be that of the face.
 //!
 //! At the point of greatest height along u the gradient of S is along u, so that a plane there raises this height by
 //! w_j = 2 (1−k)/r² ⟨n_j·x − d_j⟩/|∇S| for each unit that it moves. These weights blur: differences from plane to plane
