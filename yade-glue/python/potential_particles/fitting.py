@@ -107,9 +107,9 @@ def _with_fit(shape, samples, volume):
     local = (samples - np.array(shape.centroid)) @ rotation(shape.orientation)
     distance = np.linalg.norm(local, axis=1)
     rays = local / np.where(distance > 0.0, distance, 1.0)[:, None]
-    radii = _radii(shape.planes, shape.r, shape.k, shape.R, rays)
-    gradient = _gradients(shape.planes, shape.r, shape.k, shape.R, rays * radii[:, None])
-    across = np.abs(distance - radii) * (gradient * rays).sum(1) / np.linalg.norm(gradient, axis=1)
+    reach = radii(shape.planes, shape.r, shape.k, shape.R, rays)
+    gradient = _gradients(shape.planes, shape.r, shape.k, shape.R, rays * reach[:, None])
+    across = np.abs(distance - reach) * (gradient * rays).sum(1) / np.linalg.norm(gradient, axis=1)
     diameter = (6.0 * volume / math.pi) ** (1.0 / 3.0)
     return dataclasses.replace(
         shape, fit=Fit(float(across.max() / diameter), float(np.sqrt((across**2).mean()) / diameter), float(volume)))
@@ -122,7 +122,7 @@ def _reach(normals, heights, rays):
         return np.where(slope > 0.0, heights / slope, math.inf).min(1)
 
 
-def _radii(planes, r, k, R, rays):
+def radii(planes, r, k, R, rays):
     """Where rays (n, 3) from the centre leave the particle: the root of S - 1, convex along a ray, by Newton's method
     from outside.
     """
