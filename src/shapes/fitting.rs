@@ -83,9 +83,9 @@ fn volume_of(n: f64, e: f64) -> f64 {
     2.0 * n * e * beta(0.5 * n + 1.0, n) * beta(0.5 * e, 0.5 * e)
 }
 
-/// ln Γ(x), by Stirling's series beyond 10, to which Γ(x + 1) = x Γ(x) leads.
+/// ln Γ(x), by Stirling's series beyond 30, to which Γ(x + 1) = x Γ(x) leads.
 fn ln_gamma(x: f64) -> f64 {
-    if x < 10.0 {
+    if x < 30.0 {
         return ln_gamma(x + 1.0) - x.ln();
     }
     let series = (1.0 / 12.0 - (1.0 / 360.0 - 1.0 / (1260.0 * x * x)) / (x * x)) / x;
