@@ -23,8 +23,9 @@ OF_CORNERS = 8.0
 OF_SINGLE = 2.0**-24
 # Digits that a number of double precision always has: with more it is taken as it stands.
 OF_DOUBLE = 15
-# Beyond this share of the extent the last digit says nothing of rounding: numbers were typed, and are exact.
-COARSE = 1e-3
+# Numbers of less than so many digits may have been typed, and are exact if the last digit is beyond this share of the
+# extent; beyond the other nothing is known of a body.
+TYPED, COARSE, COARSEST = 6, 1e-3, 2e-2
 
 
 def read(file, readers=None, readable=".stl (binary or text) and .obj"):
@@ -65,7 +66,7 @@ def known_to(points):
         return OF_CORNERS * OF_SINGLE * float(largest) if np.array_equal(some, some.astype(np.float32)) else 0.0
     by_place = (places == places.max()).mean() >= (digits == digits.max()).mean()
     last = 10.0**-places.max() if by_place else 10.0**(math.floor(math.log10(largest)) + 1 - digits.max())
-    if last > COARSE * extent:
+    if last > (COARSE if digits.max() < TYPED else COARSEST) * extent:
         return 0.0
     # Single precision that was written with some more digits.
     own = last if by_place else 10.0**(np.floor(np.log10(some)) + 1 - digits.max())

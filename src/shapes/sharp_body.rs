@@ -16,7 +16,6 @@ use nalgebra::{Matrix3, Vector3};
 const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 
 /// Planes, corners and centroid are about `origin`, so that their digits do not depend on how far away the body is.
-#[cfg_attr(not(feature = "capi"), expect(dead_code, reason = "triangles and volume: for the C interface"))]
 pub(crate) struct SharpBody {
     pub origin: Vector3<f64>,
     /// Of its faces, unit normals: half-spaces in their order, those of points by falling area.
