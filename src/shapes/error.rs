@@ -52,7 +52,7 @@ pub enum ShapeError {
     )]
     Open,
     /// More faces than are rounded.
-    #[error("{0} faces are more than the {MOST_ROUNDED} that are rounded: take fewer, as fitted() does")]
+    #[error("{0} faces are more than the {MOST_ROUNDED} that are rounded: take fewer, as fitted() or planes= do")]
     TooManyFaces(usize),
     /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at
     /// which faces are one.
