@@ -28,8 +28,7 @@
  *             plane by an angle in radians.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_pair_state or an output belongs to one call at a time. Nothing is shared between calls.
- *             Only pp_contact_detect_batch (and _2d) and pp_pack start threads, and end them before they
- *             return.
+ *             Only functions that take a number of threads start any, and end them before they return.
  *   Errors    No panic and no exception leaves the library, and nothing is printed. Where memory runs
  *             out the process is aborted, as by all of Rust.
  *   Layout    Structs have the same layout on every platform with 8-byte doubles; reserved fields
@@ -71,6 +70,21 @@
 // additions. A program that loads the library should refuse to go on unless pp_abi_version() ==
 // PP_ABI_VERSION.
 #define PP_ABI_VERSION 3
+
+// Forms of pp_particle_round: a cylinder along z, {radius, height}.
+#define PP_ROUND_CYLINDER 0
+
+// A cone along z, its tip above: {radius, height}.
+#define PP_ROUND_CONE 1
+
+// An ellipsoid of semi-axes along x, y, z, {a, b, c}: exact, of 6 planes.
+#define PP_ROUND_ELLIPSOID 2
+
+// All points within a distance of a segment along z, {radius, length}: exact, of 6 planes.
+#define PP_ROUND_CAPSULE 3
+
+// (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, {a, b, c, n, e}: n and e from 0.1 to 2.
+#define PP_ROUND_SUPERQUADRIC 4
 
 // Question of pp_equilibrium: do forces exist that hold all bodies?
 #define PP_STANDS 0
@@ -195,9 +209,14 @@
 #define PP_FLAG_NORMAL_BY_BOUNDARY 2048
 
 // Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
-// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
-// midway's overlap is.
+// part along these, up to what the faces have in common; or they are farther apart along the surface than
+// across it, as with faces that are nearly flat. It is the answer by definition, but not a depth: midway's
+// overlap is.
 #define PP_FLAG_FREE 4096
+
+// The overlap is larger than the depth length of one of the particles (r for k = 0, R for a sphere): the bodies
+// are deeper in each other than the potential is made for, and normal and overlap may jump.
+#define PP_FLAG_DEEP 8192
 
 // The patch turns back under itself, as in deep overlaps of round bodies, or ends where no ray goes on. What
 // turns back is part of the answer, but a part that no ray from the contact point reaches may be missing,
@@ -387,8 +406,10 @@ typedef struct pp_built {
     // Quaternion (w, x, y, z) of unit length, w >= 0, that turns from the particle's frame, whose axes are
     // principal axes of inertia, to the given one.
     double orientation[4];
-    // Of the particle in its own frame, to 1e-6.
+    // Of the particle in its own frame, to 1e-6; with more than 30 planes to 1e-4.
     struct pp_mass_properties mass;
+    // Volume of what it was made of: of the sharp body, or of the round one that was asked for.
+    double sharp_volume;
 } pp_built;
 
 // One closest point alone; frames and units as in struct pp_contact.
@@ -914,8 +935,8 @@ typedef struct pp_block {
     double volume;
     // Centroid.
     double centroid[3];
-    // Inertia about the centroid for density 1: xx, yy, zz, xy, xz, yz, with products as they stand in the
-    // matrix.
+    // Inertia about the centroid for density 1: xx, yy, zz, xy, yz, zx, as in pp_mass_properties, with products
+    // as they stand in the matrix.
     double inertia[6];
     // Index of its first face; the others follow.
     uint64_t first_face;
@@ -1130,7 +1151,7 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
 // are the faces themselves; the planes of pp_particle_new lie deeper, by about r. Planes that make no face
 // are left out.
 // rounding: the rounding radius r over the size, in (0, 0.5). The size is the diameter of the largest ball
-// between the planes. k: sphericity, in [0, 1]. shadow: R over the size, or 0 for the distance from the
+// between the planes. k: sphericity, in [0, 1). shadow: R over the size, or 0 for the distance from the
 // centroid to the farthest corner. pp_particle_from_polyhedron takes lengths.
 // out: receives the particle; release it with pp_particle_free.
 // built: receives how it stands in the given frame, and its mass properties (may be NULL).
@@ -1167,6 +1188,27 @@ pp_status pp_particle_from_points(const double *points,
                                   struct pp_built *built,
                                   char *message,
                                   size_t message_size);
+
+// Builds a particle of the size of a round form, about its centroid, which is near the origin.
+//
+// form: PP_ROUND_CYLINDER or another of these constants. sizes: as they say, lengths; five are read.
+// planes: sides of a cylinder or cone, at most so many planes of a superquadric; 0 for 48. r: rounding radius,
+// length, or 0 for what keeps the size. k and shadow_radius: as of pp_particle_from_polyhedron. Ellipsoids and
+// capsules take none of these four.
+// All else as pp_particle_from_faces.
+// Errors: PP_NULL_POINTER, PP_BAD_INDEX (form), PP_UNBOUNDED (a size or number out of range: the message
+// says which), and those of pp_particle_new.
+// Pointers: sizes points to 5 doubles, out to one pointer, built to one struct, message to message_size bytes.
+pp_status pp_particle_round(uint32_t form,
+                            const double *sizes,
+                            size_t planes,
+                            double r,
+                            double k,
+                            double shadow_radius,
+                            struct pp_particle **out,
+                            struct pp_built *built,
+                            char *message,
+                            size_t message_size);
 
 // Fills settings with the defaults.
 //
@@ -1825,8 +1867,8 @@ pp_status pp_polyhedron_from_faces(const double *planes,
 //
 // known: the length to which the points are known, 0 for all digits. Triangles that lie that close to the plane
 // of a larger one, or within 1e-6 of the extent, are one face with it.
-// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane),
-// PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
+// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_BAD_SETTING (known is negative or not finite), PP_UNBOUNDED (fewer
+// than four points, or all in one plane), PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
 // Pointers: points points to 3*count doubles, out to one pointer, message to message_size bytes.
 pp_status pp_polyhedron_from_points(const double *points,
                                     size_t count,
@@ -1924,9 +1966,9 @@ pp_status pp_polyhedron_properties(const struct pp_polyhedron *polyhedron,
 // Rounds a polyhedron: a particle whose faces are where its faces are, about its centroid and along its
 // principal axes.
 //
-// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1].
+// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1).
 // shadow_radius: R, length, or 0 for the distance from the centroid to the farthest corner.
-// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 1e-6 is usual.
+// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 0 for 1e-6, or 1e-4 of more than 30 planes.
 // out: receives the particle; release it with pp_particle_free.
 // built: receives how it stands in the frame of the polyhedron, and its mass properties (may be NULL).
 // message: receives, on failure, a sentence that names the value (may be NULL).
@@ -1941,6 +1983,26 @@ pp_status pp_particle_from_polyhedron(const struct pp_polyhedron *polyhedron,
                                       struct pp_built *built,
                                       char *message,
                                       size_t message_size);
+
+// A particle of at most so many planes that comes as near to a polyhedron of many faces as it can, and with a
+// given volume: for scans. About its centroid and along its principal axes.
+//
+// planes: from 4 to 1000. volume: length^3, or 0 for that of the polyhedron. r: 0 for what comes nearest. All
+// else as pp_particle_from_polyhedron.
+// Errors: PP_NULL_POINTER, PP_BAD_SETTING (tolerance), PP_UNBOUNDED (planes, volume), and those of
+// pp_particle_new.
+// Pointers: out points to one pointer, built to one struct, message to message_size bytes.
+pp_status pp_particle_fitted(const struct pp_polyhedron *polyhedron,
+                             size_t planes,
+                             double volume,
+                             double r,
+                             double k,
+                             double shadow_radius,
+                             double tolerance,
+                             struct pp_particle **out,
+                             struct pp_built *built,
+                             char *message,
+                             size_t message_size);
 
 // Whether triangles, three numbers of points each, from 0, are a closed surface: each edge joins two of them.
 //

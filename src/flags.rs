@@ -81,12 +81,17 @@ impl Flags {
     pub const NORMAL_BY_BOUNDARY: Self = Self(2048);
 
     /// Closest: both points are free to move along flat faces (k = 0), so that the overlap, their distance, has a
-    /// part along these, up to what the faces have in common. It is the answer by definition, but not a depth:
-    /// midway's overlap is.
+    /// part along these, up to what the faces have in common; or they are farther apart along the surface than
+    /// across it, as with faces that are nearly flat. It is the answer by definition, but not a depth: midway's
+    /// overlap is.
     pub const FREE: Self = Self(4096);
 
+    /// The overlap is larger than the depth length of one of the particles (r for k = 0, R for a sphere): the bodies
+    /// are deeper in each other than the potential is made for, and normal and overlap may jump.
+    pub const DEEP: Self = Self(8192);
+
     /// Every flag with its name, in the order of the bits.
-    const NAMES: [(Self, &'static str); 13] = [
+    const NAMES: [(Self, &'static str); 14] = [
         (Self::SLACK, "slack"),
         (Self::REJECTED, "rejected"),
         (Self::NORMAL_BY_CENTRES, "normal by centres"),
@@ -100,6 +105,7 @@ impl Flags {
         (Self::DEFAULT_REGULARISATION, "default regularisation"),
         (Self::NORMAL_BY_BOUNDARY, "normal by boundary"),
         (Self::FREE, "free"),
+        (Self::DEEP, "deep"),
     ];
 
     /// The bits of both.

@@ -262,11 +262,15 @@ impl Settings {
         self.solve_separated != 0
     }
 
+    /// Whether more is asked for than doubles give.
+    pub(crate) fn is_precise(&self) -> bool {
+        self.gap_tolerance < LEAST_OF_DOUBLES
+    }
+
     /// Sphericity that replaces smaller ones: the regularisation of flat faces, or less where it would add more to the
     /// gap than is asked for. A raised one is a choice that stays.
     pub(crate) fn least_sphericity(&self) -> f64 {
-        let precise = self.gap_tolerance < LEAST_OF_DOUBLES;
-        if precise && !self.raises_regularisation() {
+        if self.is_precise() && !self.raises_regularisation() {
             // s itself is rounded by as much.
             SHARE_OF_REGULARISATION * self.gap_tolerance.max(f64::EPSILON)
         } else {

@@ -115,6 +115,69 @@ fn closest_points_that_are_free_along_a_face_are_flagged() {
     assert!(!corner.flags.contains(Flags::FREE), "{corner:?}");
 }
 
+/// Faces that bulge a little free them nearly as much: where the points are farther apart along the surface than across
+/// it, that is flagged, too; with one between others it is not.
+#[test]
+fn closest_points_that_are_nearly_free_are_flagged() {
+    let rounded = |half: [f64; 3]| {
+        let planes: Vec<Plane> = (0..3)
+            .flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)))
+            .map(|(axis, sign)| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - 0.01 })
+            .collect();
+        Particle::new(&planes, 0.01, 1e-3, Vector3::from(half).norm()).unwrap()
+    };
+    let (plate, cube) = (rounded([5.0, 5.0, 0.5]), rounded([0.5; 3]));
+    for (aside, is_free) in [(0.0, false), (3.0, true), (3.7, true), (4.4, true), (4.8, true)] {
+        let [closest, midway] = [Formulation::Closest, Formulation::Midway].map(|formulation| {
+            let settings = Settings::default().with_formulation(formulation);
+            detect(&plate, &at(0.0, 0.0, 0.0), &cube, &at(aside, 0.0, 1.0 - 1e-3), &settings, None).unwrap()
+        });
+        assert_eq!(closest.flags.contains(Flags::FREE), is_free, "{aside}: {closest:?}");
+        assert!(!is_free || closest.overlap > 2.0 * midway.overlap, "{aside}: {}, {}", closest.overlap, midway.overlap);
+    }
+}
+
+/// With cores that meet s is 0, and no gap is small beside it: what was asked for is not reached, which is flagged. Of
+/// a pair beside it that is reached.
+#[test]
+fn a_gap_that_is_not_reached_is_flagged() {
+    let settings = Settings::default().with_gap_tolerance(1e-14);
+    for r in [1e-3, 2.3e-4] {
+        let (a, b) = (cuboid([1.0, 0.8, 0.6], r), cuboid([0.7, 0.5, 0.9], r));
+        for turn in 0..40 {
+            let q = [0.9, 0.3 * f64::from(turn).sin(), 0.2 * f64::from(turn).cos(), -0.1];
+            let length = q.iter().map(|c: &f64| c * c).sum::<f64>().sqrt();
+            for x in [0.9, 1.3] {
+                let pose = Pose::new([x, 0.1, 0.2], q.map(|c| c / length)).unwrap();
+                let contact = detect(&a, &at(0.0, 0.0, 0.0), &b, &pose, &settings, None).unwrap();
+                if contact.kind == Kind::Overlapping {
+                    let [low, high] = [(contact.s - contact.gap).max(0.0), contact.s + contact.gap];
+                    let is_reached = high * high - low * low <= 1.001e-14 * high * high;
+                    let is_flagged = contact.flags.contains(Flags::ROUNDING_LIMITED);
+                    assert!(is_reached || is_flagged, "r = {r}, turn {turn}: {contact:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Deeper in each other than the potential is made for: r of flat faces, R of spheres.
+#[test]
+fn overlaps_above_the_rounding_radius_are_flagged() {
+    let (cube, ball) = (cuboid([0.5; 3], 0.1), Particle::sphere(0.3).unwrap());
+    for (overlap, is_deep) in [(1e-4, false), (0.09, false), (0.12, true), (0.36, true)] {
+        let contact =
+            detect(&cube, &at(0.0, 0.0, 0.0), &cube, &at(0.1, 0.0, 1.0 - overlap), &Settings::default(), None);
+        let contact = contact.unwrap();
+        assert_eq!(contact.flags.contains(Flags::DEEP), is_deep, "{overlap}: {contact:?}");
+    }
+    for (away, is_deep) in [(0.59, false), (0.31, false), (0.29, true)] {
+        let contact =
+            detect(&ball, &at(0.0, 0.0, 0.0), &ball, &at(away, 0.0, 0.0), &Settings::default(), None).unwrap();
+        assert_eq!(contact.flags.contains(Flags::DEEP), is_deep, "{away}: {contact:?}");
+    }
+}
+
 /// Of a pair that is solved to the end in spite of being apart, the distance is a lower bound that the faces know.
 #[test]
 fn solved_to_the_end_a_pair_apart_has_its_distance() {

@@ -201,7 +201,7 @@ fn bad_input_is_told() {
     let text = |found: Result<Shape, ShapeError>| found.unwrap_err().to_string();
     let rounding = Rounding::default();
     assert_eq!(text(shapes::cuboid([1.0, -1.0, 1.0], &rounding)), "edge y=-1.0 must be finite and above 0");
-    assert_eq!(text(shapes::cuboid([1.0; 3], &Rounding::new(0.05, f64::NAN))), "k=NaN must be between 0 and 1");
+    assert_eq!(text(shapes::cuboid([1.0; 3], &Rounding::new(0.05, f64::NAN))), "k=NaN must be from 0 to below 1");
     assert!(
         text(shapes::cuboid([1.0; 3], &Rounding::new(0.5, 0.0)))
             .starts_with("rounding=0.5 must be a share of the size")
@@ -263,4 +263,60 @@ fn a_face_of_rounding_makes_no_plane() {
     let corners = [[2, 2, 0], [2, 0, 0], [0, 2, 0], [2, 2, 2], [0, 1, 2], [0, 0, 0], [1, 2, 1], [0, 0, 1], [1, 0, 2]];
     let points: Vec<_> = corners.map(|corner| at(corner.map(f64::from))).into();
     assert_eq!(shapes::sharp_hull(&points).unwrap().1.len(), 9);
+}
+
+/// Points near a line enclose nothing, whatever rounding makes of them; nor do points that are one.
+#[test]
+fn points_on_a_line_are_flat() {
+    for count in [4, 10, 33] {
+        for end in [[1.0, 0.3, 0.7], [1e-3, 7.0, 1.0 / 3.0], [1e7, 1.0, 0.1]] {
+            let at = |i: i32| end.map(|c: f64| c * f64::from(i) / f64::from(count - 1));
+            let points: Vec<[f64; 3]> = (0..count).map(at).collect();
+            let told = shapes::hull(&points, &sharp()).unwrap_err();
+            assert!(matches!(told, ShapeError::Flat(_)), "{count} points to {end:?}: {told}");
+        }
+    }
+    assert!(matches!(shapes::hull(&[[0.3; 3]; 5], &sharp()), Err(ShapeError::Flat(5))));
+}
+
+/// Beyond the range of sizes one sentence says so, whatever is built.
+#[test]
+fn sizes_out_of_range_are_told() {
+    for scale in [1e-310, 1e-90, 1e-60, 1e-52, 1e52, 1e60, 1e78, 1e300] {
+        let points: Vec<[f64; 3]> = cube(0.0).iter().map(|point| point.map(|c| scale * c)).collect();
+        let planes =
+            [0, 1, 2].map(|axis| [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(axis, sign), offset: scale }));
+        let found = [
+            shapes::hull(&points, &sharp()),
+            shapes::surface(&points, &CUBE, &sharp()),
+            shapes::half_spaces(&planes.concat(), &sharp()),
+        ];
+        for error in found.map(|found| found.map(|_| ()).unwrap_err().to_string()) {
+            assert!(error.contains("must lie between 1e-50 and 1e50: take another unit"), "{scale:e}: {error}");
+        }
+        let error = shapes::prism(6, scale, scale, &sharp()).map(|_| ()).unwrap_err().to_string();
+        assert!(error.contains("from 1e-50 to 1e50"), "{scale:e}: {error}");
+    }
+}
+
+/// All 14,632 tetrahedra of a grid, from points and from their planes: inscribed balls of singular bases were not
+/// found.
+#[test]
+fn every_tetrahedron_of_a_grid_is_built() {
+    let mut count = 0;
+    for numbers in (0..27usize.pow(4)).map(|n| [n / 19_683, n / 729 % 27, n / 27 % 27, n % 27]) {
+        let points = numbers.map(|i| [i / 9, i / 3 % 3, i % 3].map(|c| c as f64));
+        let [a, b, c, d] = points.map(Vector3::from);
+        let six = (b - a).cross(&(c - a)).dot(&(d - a));
+        if numbers.is_sorted() && six != 0.0 {
+            count += 1;
+            // Mass properties take longer than the rest.
+            if count % 40 == 0 {
+                assert_volume(&shapes::hull(&points, &sharp()).unwrap(), six.abs() / 6.0);
+            }
+        }
+    }
+    assert_eq!(count, 14_632);
+    let once = [[0.0, 0.0, 2.0], [1.0, 0.0, 0.0], [1.0, 1.0, 2.0], [2.0, 0.0, 0.0]];
+    assert_volume(&shapes::hull(&once, &sharp()).unwrap(), 1.0 / 3.0);
 }

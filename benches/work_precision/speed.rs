@@ -210,9 +210,10 @@ fn contact_area(pair: &Touching, contact: &Contact) {
     let _ = black_box(section.area(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, AREA_TOLERANCE));
 }
 
-/// The derivatives of contacts in the poses, and a product with those in both shapes.
+/// The derivatives of contacts in the poses, and a product with those in both shapes; of the pairs that have such: in a
+/// core no gradient tells a normal.
 struct Slopes<'a> {
-    pairs: &'a [Touching],
+    pairs: Vec<&'a Touching>,
     settings: Settings,
     contacts: Vec<Contact>,
     /// What products are added to: all pairs of a group have as many planes.
@@ -222,13 +223,25 @@ struct Slopes<'a> {
 impl<'a> Slopes<'a> {
     fn new(pairs: &'a [Touching], formulation: Formulation) -> Self {
         let settings = midway().with_formulation(formulation);
+        let known = |pair: &&Touching| {
+            let contact = cold(pair, &settings);
+            let found = contact_derivatives(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b, &contact, &settings);
+            if let Err(error) = &found {
+                println!("  without derivatives: {error}");
+            }
+            found.is_ok()
+        };
+        let all = pairs.len();
+        let pairs: Vec<&Touching> = pairs.iter().filter(known).collect();
+        assert!(10 * pairs.len() >= 9 * all, "{} of {all} pairs have no derivatives", all - pairs.len());
         let contacts = pairs.iter().map(|pair| cold(pair, &settings)).collect();
         let sums = RefCell::new([ShapeGradient::zeros(&pairs[0].a), ShapeGradient::zeros(&pairs[0].b)]);
         Self { pairs, settings, contacts, sums }
     }
 
     fn of_poses(&self, i: usize) {
-        let p = black_box(&self.pairs[i]);
+        let i = i % self.pairs.len();
+        let p = black_box(self.pairs[i]);
         let found = contact_derivatives(&p.a, &p.pose_a, &p.b, &p.pose_b, &self.contacts[i], &self.settings);
         black_box(&found.expect("derivatives of an overlapping contact"));
     }
@@ -241,7 +254,8 @@ impl<'a> Slopes<'a> {
             point: [0.1, 0.2, 0.3].into(),
             ..ContactWeights::default()
         };
-        let (p, contact) = (black_box(&self.pairs[i]), &self.contacts[i]);
+        let i = i % self.pairs.len();
+        let (p, contact) = (black_box(self.pairs[i]), &self.contacts[i]);
         let [a, b] = &mut *self.sums.borrow_mut();
         let (a, b) = (Some(a), Some(b));
         let found = contact_gradient(&p.a, &p.pose_a, &p.b, &p.pose_b, contact, &self.settings, &weights, a, b);

@@ -76,7 +76,9 @@ std::vector<Shape> readShapes(const std::string& text, const std::string& path)
     bool inside = false;
     Place place { path };
     while (std::getline(lines, line)) {
-        ++place.line;
+        // The mark that some editors put before UTF-8.
+        if (++place.line == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0)
+            line.erase(0, 3);
         std::istringstream words(line.substr(0, line.find('#')));
         std::string keyword;
         if (!(words >> keyword))

@@ -22,6 +22,11 @@ sphere = _builders.sphere
 cuboid = _builders.cuboid
 prism = _builders.prism
 cylinder = _builders.cylinder
+cone = _builders.cone
+ellipsoid = _builders.ellipsoid
+capsule = _builders.capsule
+superquadric = _builders.superquadric
+fitted = _builders.fitted
 regular_solid = _builders.regular_solid
 
 
@@ -49,4 +54,7 @@ def mesh(file, *, hull=False, scale=1.0, rounding=None, k=0.02, r=None, R=None):
         raise ValueError(f"{file}: {error}") from None
 
 
-__all__ = ["Shape", "cuboid", "cylinder", "half_spaces", "hull", "mesh", "prism", "regular_solid", "sphere", "surface"]
+__all__ = [
+    "Shape", "capsule", "cone", "cuboid", "cylinder", "ellipsoid", "fitted", "half_spaces", "hull", "mesh", "prism",
+    "regular_solid", "sphere", "superquadric", "surface"
+]

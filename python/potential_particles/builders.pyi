@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 import os
-from typing import Optional, Union
+from typing import Optional, Tuple, Union
 
 from numpy.typing import ArrayLike
 
@@ -13,6 +13,8 @@ class Shape:
     def mass(self) -> MassProperties: ...
     @property
     def volume(self) -> float: ...
+    @property
+    def sharp_volume(self) -> float: ...
     @property
     def centroid(self) -> Vector: ...
     @property
@@ -53,8 +55,24 @@ def prism(sides: int = 6, radius: float = 0.5, height: float = 1.0, top_radius: 
     ...
 
 
-def cylinder(radius: float = 0.5, height: float = 1.0, sides: int = 32, *, rounding: Optional[float] = None,
+def cylinder(radius: float = 0.5, height: float = 1.0, sides: int = 48, *, rounding: Optional[float] = None,
              k: float = 0.02, r: Optional[float] = None, R: Optional[float] = None) -> Shape:
+    ...
+
+
+def cone(radius: float = 0.5, height: float = 1.0, sides: int = 48, *, rounding: Optional[float] = None,
+         k: float = 0.02, r: Optional[float] = None, R: Optional[float] = None) -> Shape:
+    ...
+
+
+def superquadric(axes: ArrayLike, exponents: Tuple[float, float], *, planes: int = 48,
+                 rounding: Optional[float] = None, k: float = 0.02, r: Optional[float] = None,
+                 R: Optional[float] = None) -> Shape:
+    ...
+
+
+def fitted(points: ArrayLike, planes: int = 60, *, rounding: Optional[float] = None, k: float = 0.02,
+           r: Optional[float] = None, R: Optional[float] = None) -> Shape:
     ...
 
 
@@ -64,3 +82,5 @@ def regular_solid(faces: int, edge: float = 1.0, *, rounding: Optional[float] = 
 
 
 def sphere(radius: float) -> Shape: ...
+def ellipsoid(axes: ArrayLike) -> Shape: ...
+def capsule(radius: float, length: float) -> Shape: ...

@@ -14,8 +14,8 @@ def written(file, text=False):
     """An open file, of bytes or of text in UTF-8, that takes the name `file` when the block has ended without an error
     and all of it is on the disk.
 
-    Until then it lies beside it under that name and ".part". OSError where anything could not be written, and what was
-    there stays. A link to a file stays a link; a device or pipe is written as it is.
+    Until then it lies beside it under a name that nothing else has, made for this writer alone. OSError where anything
+    could not be written, and what was there stays. A link to a file stays a link; a device or pipe is written as it is.
     """
     mode, encoding = ("w", "utf-8") if text else ("wb", None)
     place = os.path.realpath(os.fspath(file))
@@ -24,7 +24,7 @@ def written(file, text=False):
             with open(place, mode, encoding=encoding) as out:
                 yield out
             return
-        part = place + ".part"
+        part = _made_beside(place)
         try:
             with open(part, mode, encoding=encoding) as out:
                 if os.path.exists(place):
@@ -40,6 +40,17 @@ def written(file, text=False):
         raise OSError(error.errno, f"{error.strerror or error}; what was there before is left as it was",
                       os.fspath(file)) from error
     _flush_folder(os.path.dirname(place))
+
+
+def _made_beside(place):
+    """An empty file with a name that nothing had, not even a link. The name is short: that of the file may be as long as
+    names can be.
+    """
+    while True:
+        part = os.path.join(os.path.dirname(place), f".{os.urandom(8).hex()}.part")
+        with contextlib.suppress(FileExistsError):
+            os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_WRONLY, 0o666))
+            return part
 
 
 def _flush_folder(folder):

@@ -4,6 +4,8 @@
 Libraries were tried: the readers of VTK take counts and indices as they are, where one that is wrong ends the process,
 and numbers by the locale of the process, which Qt sets; the crates stl_io and tobj refuse files that others read.
 """
+import decimal
+import math
 import os
 import re
 
@@ -15,9 +17,15 @@ _TRIANGLE = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("attrib
 _INDEX = "(-?[0-9]{1,18})"
 _CORNER, _NAMED = re.compile(f"{_INDEX}(?:/{_INDEX}|/{_INDEX}?/{_INDEX})?"), ("v", "vt", "vt", "vn")
 
-# How far from its plane four corners may put a face, over the largest coordinate, if each is off by half a unit of the
-# seventh digit, 5e-7 at most, or of the last digit of single precision, 6e-8.
-OF_SEVEN_DIGITS, OF_SINGLE = 4e-6, 5e-7
+# How far from its plane the fourth corner of a face may be, over what each coordinate may be off.
+OF_CORNERS = 8.0
+# What a number of single precision may be off, as a share of it.
+OF_SINGLE = 2.0**-24
+# Digits that a number of double precision always has: with more it is taken as it stands.
+OF_DOUBLE = 15
+# Numbers of less than so many digits may have been typed, and are exact if the last digit is beyond this share of the
+# extent; beyond the other nothing is known of a body.
+TYPED, COARSE, COARSEST = 6, 1e-3, 2e-2
 
 
 def read(file, readers=None, readable=".stl (binary or text) and .obj"):
@@ -41,11 +49,29 @@ def read(file, readers=None, readable=".stl (binary or text) and .obj"):
 
 
 def known_to(points):
-    """The length to which points of a file are known, by their digits."""
-    some = points[:1000].ravel()
-    is_short = all(float(f"{one:.7g}") == one for one in some)
-    of_digits = OF_SEVEN_DIGITS if is_short else OF_SINGLE if np.array_equal(some, some.astype(np.float32)) else 0.0
-    return of_digits * float(np.abs(points).max())
+    """The length to which faces of points of a file are known, by the digits of the points.
+
+    Numbers have all been rounded to a decimal place (%.4f), to significant digits (%.8g) or to single precision, or not
+    at all: whole numbers, numbers of few digits for the size of the body, and those of double precision are exact. Of
+    place and digits that one counts which more numbers make full use of: the last digit is seldom a zero.
+    """
+    some = np.unique(np.abs(points[:1000]))
+    some, largest, extent = some[some > 0.0], np.abs(points).max(), np.ptp(points, axis=0).max()
+    if len(some) == 0 or np.array_equal(some, np.round(some)):
+        return 0.0
+    written = [decimal.Decimal(repr(float(one))).normalize() for one in some]
+    digits = np.array([len(one.as_tuple().digits) for one in written])
+    places = np.array([-one.as_tuple().exponent for one in written])
+    if digits.max() > OF_DOUBLE:
+        return OF_CORNERS * OF_SINGLE * float(largest) if np.array_equal(some, some.astype(np.float32)) else 0.0
+    by_place = (places == places.max()).mean() >= (digits == digits.max()).mean()
+    last = 10.0**-places.max() if by_place else 10.0**(math.floor(math.log10(largest)) + 1 - digits.max())
+    if last > (COARSE if digits.max() < TYPED else COARSEST) * extent:
+        return 0.0
+    # Single precision that was written with some more digits.
+    own = last if by_place else 10.0**(np.floor(np.log10(some)) + 1 - digits.max())
+    single = OF_SINGLE * largest if (np.abs(some - some.astype(np.float32)) <= 0.51 * own).all() else 0.0
+    return OF_CORNERS * float(max(0.5 * last, single))
 
 
 def read_text(file):

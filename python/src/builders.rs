@@ -7,9 +7,9 @@ use crate::pickles::pickled;
 use crate::pose::PyPose;
 use numpy::PyArray1;
 use potential_particles::shapes::{self, Rounding, Shape, ShapeError};
-use pyo3::exceptions::PyFutureWarning;
+use pyo3::exceptions::{PyFutureWarning, PyUserWarning};
 use pyo3::prelude::*;
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 
 /// A particle about its centroid along its principal axes, and where that frame lies in the builder's.
 #[pyclass(name = "Shape", module = "potential_particles.builders", frozen)]
@@ -40,6 +40,11 @@ impl PyShape {
     #[getter]
     fn volume(&self) -> f64 {
         self.shape.mass.volume
+    }
+
+    #[getter]
+    fn sharp_volume(&self) -> f64 {
+        self.shape.sharp_volume
     }
 
     #[getter]
@@ -85,10 +90,20 @@ fn built(
             return Err(refused(format!("rounding={share:?} and r={r:?} both give the rounding radius: leave out one")));
         }
         (None, Some(r)) => Rounding::of_radius(r, k),
-        (share, None) => Rounding::new(share.unwrap_or(Rounding::SHARE), k),
+        (Some(share), None) => Rounding::new(share, k),
+        (None, None) => Rounding::chosen(k),
     };
     let rounding = shadow_radius.map_or(rounding, |length| rounding.with_shadow_radius(length));
     let shape = py.detach(|| make(&rounding)).map_err(refused)?;
+    if let Some(end) = shadow_radius.map(|radius| radius / k.sqrt()) {
+        if shape.particle.bounding_radius() >= (1.0 - 1e-9) * end {
+            let told = format!(
+                "R={shadow_radius:?}: a sphere of radius R/sqrt(k)={end:.6} cuts off what lies beyond; leave R out, or \
+                 take a larger one", shadow_radius = shadow_radius.unwrap_or_default());
+            let told = CString::new(told).unwrap_or_default();
+            PyErr::warn(py, &py.get_type::<PyUserWarning>(), &told, 1)?;
+        }
+    }
     PyShape::of(py, shape)
 }
 
@@ -173,7 +188,7 @@ fn length(value: f64, name: &str) -> PyResult<f64> {
 /// A sphere about the origin: k = 1.
 #[pyfunction]
 fn sphere(py: Python<'_>, radius: f64) -> PyResult<PyShape> {
-    built(py, (None, 1.0, None, None), |_| shapes::sphere(radius))
+    PyShape::of(py, shapes::sphere(radius).map_err(refused)?)
 }
 
 /// A cuboid about the origin with these edges along x, y, z, length.
@@ -220,12 +235,12 @@ fn prism(
     })
 }
 
-/// A cylinder along z as a prism of as many sides, whose section has the area pi radius^2.
+/// A cylinder along z as a prism of as many sides, whose section, rounded as it is, has the area pi radius^2.
 ///
 /// rounding: r as a share of the size, the diameter of the largest ball that fits in the
 /// sharp shape, 0.05, or in its place r, a length; k: sphericity; R: a length.
 #[pyfunction]
-#[pyo3(signature = (radius=0.5, height=1.0, sides=32, *, rounding=None, k=0.02, r=None, R=None))]
+#[pyo3(signature = (radius=0.5, height=1.0, sides=48, *, rounding=None, k=0.02, r=None, R=None))]
 #[allow(non_snake_case, clippy::too_many_arguments)]
 fn cylinder(
     py: Python<'_>,
@@ -239,6 +254,83 @@ fn cylinder(
 ) -> PyResult<PyShape> {
     let sides = count(sides, "sides")?;
     built(py, (rounding, k, r, R), |rounding| shapes::cylinder(radius, height, sides, rounding))
+}
+
+/// A cone along z from -height/2 to its tip at height/2, as a pyramid of as many sides whose base has the area pi
+/// radius^2.
+///
+/// rounding: r as a share of the size, or in its place r, a length: without both so small that base and height lose no
+/// more than 0.1 %; k: sphericity; R: a length.
+#[pyfunction]
+#[pyo3(signature = (radius=0.5, height=1.0, sides=48, *, rounding=None, k=0.02, r=None, R=None))]
+#[allow(non_snake_case, clippy::too_many_arguments)]
+fn cone(
+    py: Python<'_>,
+    radius: f64,
+    height: f64,
+    sides: i64,
+    rounding: Option<f64>,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    let sides = count(sides, "sides")?;
+    built(py, (rounding, k, r, R), |rounding| shapes::cone(radius, height, sides, rounding))
+}
+
+/// An ellipsoid about the origin with these semi-axes along x, y, z, length: exact, of 6 planes.
+#[pyfunction]
+fn ellipsoid(py: Python<'_>, axes: &Bound<'_, PyAny>) -> PyResult<PyShape> {
+    PyShape::of(py, shapes::ellipsoid(vector(axes, "axes")?).map_err(refused)?)
+}
+
+/// All points within radius of a segment of this length along z, about the origin: exact, of 6 planes.
+#[pyfunction]
+fn capsule(py: Python<'_>, radius: f64, length: f64) -> PyResult<PyShape> {
+    PyShape::of(py, shapes::capsule(radius, length).map_err(refused)?)
+}
+
+/// A superquadric about the origin, (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, with the semi-axes a, b, c
+/// and the exponents n, e from 0.1, nearly a box, over 1, an ellipsoid, to 2, an octahedron; fitted with its volume.
+///
+/// planes: at most so many. rounding: r as a share of the size, or in its place r, a length: without both what comes
+/// nearest; k: sphericity; R: a length.
+#[pyfunction]
+#[pyo3(signature = (axes, exponents, *, planes=48, rounding=None, k=0.02, r=None, R=None))]
+#[allow(non_snake_case, clippy::too_many_arguments)]
+fn superquadric(
+    py: Python<'_>,
+    axes: &Bound<'_, PyAny>,
+    exponents: (f64, f64),
+    planes: i64,
+    rounding: Option<f64>,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    let (axes, planes) = (vector(axes, "axes")?, count(planes, "planes")?);
+    built(py, (rounding, k, r, R), |rounding| shapes::superquadric(axes, exponents.into(), planes, rounding))
+}
+
+/// Of the convex hull of points (n, 3), as those of a scan: at most so many planes that come near to it, and its
+/// volume.
+///
+/// rounding: r as a share of the size, or in its place r, a length: without both what comes nearest; k: sphericity; R:
+/// a length. ValueError: flat points.
+#[pyfunction]
+#[pyo3(signature = (points, planes=60, *, rounding=None, k=0.02, r=None, R=None))]
+#[allow(non_snake_case)]
+fn fitted(
+    py: Python<'_>,
+    points: &Bound<'_, PyAny>,
+    planes: i64,
+    rounding: Option<f64>,
+    k: f64,
+    r: Option<f64>,
+    R: Option<f64>,
+) -> PyResult<PyShape> {
+    let (points, planes) = (rows::<3>(points, "points", "three numbers x, y, z")?, count(planes, "planes")?);
+    built(py, (rounding, k, r, R), |rounding| shapes::fitted(&points, planes, rounding))
 }
 
 /// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
@@ -271,6 +363,11 @@ pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(cuboid, &module)?)?;
     module.add_function(wrap_pyfunction!(prism, &module)?)?;
     module.add_function(wrap_pyfunction!(cylinder, &module)?)?;
+    module.add_function(wrap_pyfunction!(cone, &module)?)?;
+    module.add_function(wrap_pyfunction!(ellipsoid, &module)?)?;
+    module.add_function(wrap_pyfunction!(capsule, &module)?)?;
+    module.add_function(wrap_pyfunction!(superquadric, &module)?)?;
+    module.add_function(wrap_pyfunction!(fitted, &module)?)?;
     module.add_function(wrap_pyfunction!(regular_solid, &module)?)?;
     parent.add_submodule(&module)
 }

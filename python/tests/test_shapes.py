@@ -40,6 +40,56 @@ class Builders(unittest.TestCase):
             self.assertLess(np.abs(mass.centroid).max(), 1e-5)
             self.assertLess(np.abs(mass.inertia - np.diag(np.diag(mass.inertia))).max(), 1e-4 * mass.inertia.max())
 
+    def test_round_bodies_keep_their_size(self):
+        at = np.random.default_rng(3).normal(size=(800, 3))
+        points = at / np.linalg.norm(at, axis=1)[:, None] * (1, 0.7, 0.5)
+        hull = builders.hull(points, rounding=1e-3, k=0).sharp_volume
+        for shape, volume in [(builders.cylinder(0.05, 0.1), math.pi * 0.05**2 * 0.1),
+                              (builders.cylinder(0.05, 0.1, 256), math.pi * 0.05**2 * 0.1),
+                              (builders.cone(0.5, 1), math.pi / 12), (builders.capsule(0.5, 1), math.pi * (0.25 + 1 / 6)),
+                              (builders.ellipsoid((1, 0.7, 0.5)), 1.4 / 3 * math.pi),
+                              (builders.superquadric((1, 0.7, 0.5), (1, 1)), 1.4 / 3 * math.pi),
+                              (builders.fitted(points, 40), hull)]:
+            self.assertAlmostEqual(shape.volume / volume, 1, delta=5e-3)
+            self.assertAlmostEqual(shape.sharp_volume / volume, 1, delta=1e-9)
+            self.assertEqual(pickle.loads(pickle.dumps(shape)).sharp_volume, shape.sharp_volume)
+
+    def test_a_shadow_sphere_that_cuts_is_told(self):
+        with self.assertWarnsRegex(UserWarning, "R=0.1: a sphere of radius R/sqrt.k.=0.707107 cuts off"):
+            builders.cuboid((1, 1, 1), R=0.1)
+
+    def test_the_digits_of_a_file_are_found(self):
+        """Bricks, turned: six faces whatever wrote their numbers and wherever they stand; bodies of whole numbers are
+        exact.
+        """
+        random = np.random.default_rng(17)
+        corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 1) for z in (0, 0.5)])
+        faces = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5), (2, 3, 7), (2, 7, 6), (0, 2, 6),
+                 (0, 6, 4), (1, 5, 7), (1, 7, 3)]
+        with tempfile.TemporaryDirectory() as folder:
+            for place in (0, 10, 1000):
+                for form in ("%.4f", "%.5f", "%.6f", "%.7g", "%.8g", "%.9g", "%.17g", "single"):
+                    for _ in range(4):
+                        turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+                        points = corners @ turn.T + place * random.uniform(-1, 1, 3)
+                        file = Path(folder) / "brick.stl"
+                        if form == "single":
+                            write_stl(file, points, np.array(faces))
+                        else:
+                            told = "".join("facet normal 0 0 0\nouter loop\n" + "".join(
+                                "vertex " + " ".join(form % c for c in points[i]) + "\n" for i in face) +
+                                "endloop\nendfacet\n" for face in faces)
+                            file.write_text("solid brick\n" + told + "endsolid brick\n")
+                        shape = builders.mesh(file)
+                        self.assertEqual(len(shape.particle.planes), 6, f"{form} at {place}")
+                        self.assertAlmostEqual(shape.sharp_volume, 1, delta=2e-3)
+            file = Path(folder) / "cut.obj"
+            for far in (0, 1_000_000, 5_000_000):
+                cut = [p for c in np.ndindex(2, 2, 2) for axis in range(3)
+                       for p in [[far + 10 * one + (axis == i) * (1 - 2 * one) for i, one in enumerate(c)]]]
+                file.write_text("".join("v %d %d %d\n" % tuple(p) for p in cut) + "f 1 2 3\n")
+                self.assertEqual(len(builders.mesh(file, hull=True).particle.planes), 14)
+
     def test_r_is_a_length(self):
         with self.assertWarnsRegex(FutureWarning, "r=0.05 of then is rounding=0.05"):
             shape = builders.cuboid((4, 2, 3), r=0.1, k=0, R=3)

@@ -21,6 +21,9 @@ pub(crate) struct Scale {
 /// and that of the root itself.
 const OF_SCALE: f64 = 2.0 * f64::EPSILON;
 
+/// What bounds of s are apart by rounding, as a share of s².
+const OF_DOUBLE: f64 = 1e-14;
+
 /// Root of the least normal number: an s below it has a square that is lost.
 const UNDERFLOW: f64 = 1.5e-154;
 
@@ -64,6 +67,13 @@ impl Scale {
     /// Whether it proves on which side of 1 s lies.
     pub fn tells_the_side(&self) -> bool {
         (self.s - 1.0).abs() > self.gap
+    }
+
+    /// Whether s² is known to a relative tolerance, or as well as a double holds it: with cores that meet s² is 0 and
+    /// its bounds are all that is known.
+    pub fn is_known_to(&self, tolerance: f64) -> bool {
+        let [low, high] = [self.low * self.low, self.high * self.high];
+        high - low <= larger(tolerance, OF_DOUBLE) * high
     }
 
     /// Whether s cannot be told from 0, as where a constraint is slack.

@@ -2,7 +2,7 @@
 //! from there to a particle.
 
 use super::argument::{Argument, objects};
-use super::builder::{built_from, pp_built};
+use super::builder::{built_from, lengths, pp_built};
 use super::convert::{finite, planes_of};
 use super::fence::give;
 use super::message::{Refusal, explain};
@@ -48,8 +48,8 @@ pub unsafe extern "C" fn pp_polyhedron_from_faces(
 ///
 /// known: the length to which the points are known, 0 for all digits. Triangles that lie that close to the plane
 /// of a larger one, or within 1e-6 of the extent, are one face with it.
-/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_UNBOUNDED (fewer than four points, or all in one plane),
-/// PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
+/// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_BAD_SETTING (known is negative or not finite), PP_UNBOUNDED (fewer
+/// than four points, or all in one plane), PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
 /// Pointers: points points to 3*count doubles, out to one pointer, message to message_size bytes.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_polyhedron_from_points(
@@ -211,9 +211,9 @@ pub unsafe extern "C" fn pp_polyhedron_properties(
 /// Rounds a polyhedron: a particle whose faces are where its faces are, about its centroid and along its
 /// principal axes.
 ///
-/// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1].
+/// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1).
 /// shadow_radius: R, length, or 0 for the distance from the centroid to the farthest corner.
-/// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 1e-6 is usual.
+/// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 0 for 1e-6, or 1e-4 of more than 30 planes.
 /// out: receives the particle; release it with pp_particle_free.
 /// built: receives how it stands in the frame of the polyhedron, and its mass properties (may be NULL).
 /// message: receives, on failure, a sentence that names the value (may be NULL).
@@ -232,10 +232,45 @@ pub unsafe extern "C" fn pp_particle_from_polyhedron(
     message_size: usize,
 ) -> pp_status {
     explain!(message[message_size], "out", (New(out), IfWanted(built)), [polyhedron], {
-        ToleranceError::refuse_relative(tolerance)?;
+        if tolerance != 0.0 {
+            ToleranceError::refuse_relative(tolerance)?;
+        }
         let rounding = Rounding::of_radius(r, k);
         let rounding = if shadow_radius == 0.0 { rounding } else { rounding.with_shadow_radius(shadow_radius) };
-        Ok(built_from(Shape::of_body(polyhedron, &rounding, tolerance)?))
+        Ok(built_from(Shape::of_body(polyhedron, &rounding, (tolerance != 0.0).then_some(tolerance))?))
+    })
+}
+
+/// A particle of at most so many planes that comes as near to a polyhedron of many faces as it can, and with a
+/// given volume: for scans. About its centroid and along its principal axes.
+///
+/// planes: from 4 to 1000. volume: length^3, or 0 for that of the polyhedron. r: 0 for what comes nearest. All
+/// else as pp_particle_from_polyhedron.
+/// Errors: PP_NULL_POINTER, PP_BAD_SETTING (tolerance), PP_UNBOUNDED (planes, volume), and those of
+/// pp_particle_new.
+/// Pointers: out points to one pointer, built to one struct, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_fitted(
+    polyhedron: *const pp_polyhedron,
+    planes: usize,
+    volume: f64,
+    r: f64,
+    k: f64,
+    shadow_radius: f64,
+    tolerance: f64,
+    out: *mut *mut pp_particle,
+    built: *mut pp_built,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    explain!(message[message_size], "out", (New(out), IfWanted(built)), [polyhedron], {
+        if tolerance != 0.0 {
+            ToleranceError::refuse_relative(tolerance)?;
+        }
+        let body: &SharpBody = polyhedron;
+        let volume = if volume == 0.0 { body.volume } else { volume };
+        let rounding = lengths(r, k, shadow_radius);
+        Ok(built_from(shapes::of_hull(body, volume, planes, &rounding, (tolerance != 0.0).then_some(tolerance))?))
     })
 }
 

@@ -45,8 +45,8 @@ pub struct pp_block {
     pub volume: f64,
     /// Centroid.
     pub centroid: [f64; 3],
-    /// Inertia about the centroid for density 1: xx, yy, zz, xy, xz, yz, with products as they stand in the
-    /// matrix.
+    /// Inertia about the centroid for density 1: xx, yy, zz, xy, yz, zx, as in pp_mass_properties, with products
+    /// as they stand in the matrix.
     pub inertia: [f64; 6],
     /// Index of its first face; the others follow.
     pub first_face: u64,
@@ -131,7 +131,7 @@ pub unsafe extern "C" fn pp_rock_blocks(
             pp_block {
                 volume: block.volume,
                 centroid: block.centroid.into(),
-                inertia: [i.m11, i.m22, i.m33, i.m12, i.m13, i.m23],
+                inertia: [i.m11, i.m22, i.m33, i.m12, i.m23, i.m13],
                 first_face: first as u64,
                 face_count: block.faces.len() as u64,
                 parent: block.parent as u64,

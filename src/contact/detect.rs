@@ -202,6 +202,9 @@ fn solved(
     if !separated && scale.is_undecided(settings.raises_regularisation()) {
         return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
     }
+    if settings.is_precise() && !separated && !scale.is_known_to(settings.gap_tolerance) {
+        call.flags.set(Flags::ROUNDING_LIMITED, true);
+    }
     let overlapping = !separated && scale.s < 1.0;
     let Solution { x, lambda, values, .. } = midway.solution;
     let mut remembered = Remembered { x, lambda, how: How::solved(overlapping), closest: [1.0; 2] };

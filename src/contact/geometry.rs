@@ -150,7 +150,9 @@ impl LocalContact {
                 (pose_b.position() + pose_b.rotate(&p1), pose_b.position() + pose_b.rotate(&p2), (p1 - p2).norm())
             }
         };
-        Contact { kind: Kind::Overlapping, distance: f64::NAN, overlap, point_on_a, point_on_b, ..contact }
+        let is_deep = overlap > smaller(pair.a.depth_length(), pair.b.depth_length());
+        let flags = if is_deep { contact.flags.with(Flags::DEEP) } else { contact.flags };
+        Contact { kind: Kind::Overlapping, flags, distance: f64::NAN, overlap, point_on_a, point_on_b, ..contact }
     }
 }
 

@@ -8,6 +8,7 @@
 
 use crate::particle::plane::Plane;
 use nalgebra::Vector3;
+use std::ops::Range;
 
 /// Distance at which faces are one, as a share of the extent, the largest edge of the box about the body. The numbers
 /// of a binary .stl file are good to 6e-8.
@@ -49,8 +50,8 @@ pub(crate) struct Distinct {
     pub plane_of: Vec<u32>,
 }
 
-/// The faces of a convex body with these corners that are distinct; `None` if the body is flat. `known`: the length to
-/// which the corners are known; faces that lie within it are one, too.
+/// The faces of a convex body with these corners that are distinct; `None` if the body is flat, or thin as a line.
+/// `known`: the length to which the corners are known; faces that lie within it are one, too.
 pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<F>], known: f64) -> Option<Distinct> {
     let around = Around::new(corners.len(), faces);
     let extent = extent(corners);
@@ -65,7 +66,7 @@ pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<
             continue;
         }
         let start = outline.as_ref()[0];
-        let top = around.climbed(corners, normal, start, faces);
+        let top = around.climbed(corners, normal, start);
         let offset = normal.dot(&corners[top as usize]);
         let is_near = |corner: u32| normal.dot(&corners[corner as usize]) >= offset - within;
         if is_near(bottom) {
@@ -78,23 +79,24 @@ pub(crate) fn distinct<F: AsRef<[u32]>>(corners: &[Vector3<f64>], faces: &[Face<
         open.push(top);
         seen[top as usize] = plane;
         while let Some(corner) = open.pop() {
+            for &next in around.corners(corner) {
+                if seen[next as usize] != plane && is_near(next) {
+                    seen[next as usize] = plane;
+                    open.push(next);
+                }
+            }
             for &other in around.faces(corner) {
                 let Face { normal: beside, corners: outline, .. } = &faces[other as usize];
-                let outline = outline.as_ref();
-                for &next in outline {
-                    if seen[next as usize] != plane && is_near(next) {
-                        seen[next as usize] = plane;
-                        open.push(next);
-                    }
-                }
-                let is_part = || normal.dot(beside) > LEAST_COSINE && outline.iter().all(|&corner| is_near(corner));
+                let is_part =
+                    || normal.dot(beside) > LEAST_COSINE && outline.as_ref().iter().all(|&corner| is_near(corner));
                 if found.plane_of[other as usize] == u32::MAX && is_part() {
                     found.plane_of[other as usize] = plane;
                 }
             }
         }
     }
-    Some(found)
+    // Points near a line have faces of rounding only.
+    (found.planes.len() > 3).then_some(found)
 }
 
 /// The planes that are distinct within a ball about the origin, in their order; normals of any length. Two planes are
@@ -145,10 +147,12 @@ pub(crate) fn extent(points: &[Vector3<f64>]) -> f64 {
     (high - low).max()
 }
 
-/// For each corner the faces around it.
+/// For each corner the faces around it, and the corners at the other ends of its edges: each twice, as of both faces.
+/// A face of many corners is not walked around for each of them.
 struct Around {
     ends: Vec<u32>,
     faces: Vec<u32>,
+    corners: Vec<u32>,
 }
 
 impl Around {
@@ -156,32 +160,40 @@ impl Around {
         let mut ends = vec![0; corners + 1];
         faces.iter().flat_map(|face| face.corners.as_ref()).for_each(|&corner| ends[corner as usize + 1] += 1);
         (1..=corners).for_each(|i| ends[i] += ends[i - 1]);
-        let (mut next, mut around) = (ends.clone(), vec![0; ends[corners] as usize]);
+        let all = ends[corners] as usize;
+        let (mut next, mut around, mut beside) = (ends.clone(), vec![0; all], vec![0; 2 * all]);
         for (number, face) in faces.iter().enumerate() {
-            for &corner in face.corners.as_ref() {
-                around[next[corner as usize] as usize] = number as u32;
-                next[corner as usize] += 1;
+            let outline = face.corners.as_ref();
+            for (i, &corner) in outline.iter().enumerate() {
+                let place = &mut next[corner as usize];
+                around[*place as usize] = number as u32;
+                let at = |i: usize| outline[i % outline.len()];
+                beside[2 * *place as usize..][..2].copy_from_slice(&[at(i + 1), at(i + outline.len() - 1)]);
+                *place += 1;
             }
         }
-        Self { ends, faces: around }
+        Self { ends, faces: around, corners: beside }
+    }
+
+    fn range(&self, corner: u32) -> Range<usize> {
+        self.ends[corner as usize] as usize..self.ends[corner as usize + 1] as usize
     }
 
     fn faces(&self, corner: u32) -> &[u32] {
-        &self.faces[self.ends[corner as usize] as usize..self.ends[corner as usize + 1] as usize]
+        &self.faces[self.range(corner)]
+    }
+
+    fn corners(&self, corner: u32) -> &[u32] {
+        let Range { start, end } = self.range(corner);
+        &self.corners[2 * start..2 * end]
     }
 
     /// The corner that lies farthest along a direction, uphill from corner to corner.
-    fn climbed<F: AsRef<[u32]>>(
-        &self,
-        corners: &[Vector3<f64>],
-        along: &Vector3<f64>,
-        start: u32,
-        faces: &[Face<F>],
-    ) -> u32 {
+    fn climbed(&self, corners: &[Vector3<f64>], along: &Vector3<f64>, start: u32) -> u32 {
         let mut best = (along.dot(&corners[start as usize]), start);
         loop {
             let here = best.1;
-            for &next in self.faces(here).iter().flat_map(|&face| faces[face as usize].corners.as_ref()) {
+            for &next in self.corners(here) {
                 let height = along.dot(&corners[next as usize]);
                 if height > best.0 {
                     best = (height, next);

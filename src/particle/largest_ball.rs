@@ -12,6 +12,13 @@ const CUT: f64 = 1e-13;
 /// leads in circles (Bland).
 const STEEPEST: usize = 200;
 
+/// Changes of a weight below this share of the largest are rounding: with such a half-space leaving, the others would
+/// be dependent.
+const PIVOT: f64 = 1e-9;
+
+/// Rounding of the weights, whose sum is 1.
+const SLACK: f64 = 1e-12;
+
 /// Most steps: far more than any body has taken.
 const MOST_STEPS: usize = 100_000;
 
@@ -37,10 +44,16 @@ pub(crate) fn radius(faces: &[(Vector3<f64>, f64)], extent: f64) -> Option<f64> 
         let Some(entering) = (0..all.len()).fold(None, most) else { return Some(ball.w) };
         let weights = system.solve(&Vector4::new(0.0, 0.0, 0.0, 1.0))?;
         let change = system.solve(&column(entering))?;
-        let ratio = |j: usize| weights[j].max(0.0) / change[j];
-        let leaving = (0..4)
-            .filter(|&j| change[j] > f64::EPSILON)
-            .min_by(|&i, &j| ratio(i).total_cmp(&ratio(j)).then(basis[i].cmp(&basis[j])))?;
+        let least = PIVOT * change.amax();
+        let falling = || (0..4).filter(|&j| change[j] > least);
+        // Weights that reach 0 together, within rounding (Harris): of them the one that falls fastest leaves.
+        let first = falling().map(|j| (weights[j].max(0.0) + SLACK) / change[j]).fold(f64::INFINITY, f64::min);
+        let together = falling().filter(|&j| weights[j].max(0.0) <= first * change[j]);
+        let leaving = if step < STEEPEST {
+            together.max_by(|&i, &j| change[i].total_cmp(&change[j]))?
+        } else {
+            together.min_by_key(|&j| basis[j])?
+        };
         basis[leaving] = entering;
     }
     None
@@ -57,6 +70,36 @@ mod tests {
             .flat_map(|axis| [1.0, -1.0].map(|sign| (Vector3::ith(axis, sign), [0.5, 0.2, 3.0][axis] + sign * 0.1)))
             .collect();
         assert!((radius(&faces, 3.1).unwrap() - 0.2).abs() < 1e-14);
+    }
+
+    /// Of tetrahedra on a grid many planes are parallel to others of the basis or meet with them: the radius is three
+    /// times the volume over the area.
+    #[test]
+    fn tetrahedra_of_a_grid_have_their_inscribed_ball() {
+        let grid: Vec<Vector3<f64>> =
+            (0..27).map(|i| Vector3::new(f64::from(i / 9), f64::from(i / 3 % 3), f64::from(i % 3))).collect();
+        let mut count = 0;
+        for numbers in (0..27usize.pow(4)).map(|n| [n / 19_683, n / 729 % 27, n / 27 % 27, n % 27]) {
+            let [a, b, c, d] = numbers.map(|i| grid[i]);
+            let six = (b - a).cross(&(c - a)).dot(&(d - a));
+            if !numbers.is_sorted() || six == 0.0 {
+                continue;
+            }
+            let (middle, sides) = ((a + b + c + d) / 4.0, [[a, b, c], [b, c, d], [c, d, a], [d, a, b]]);
+            let doubled = sides.map(|[a, b, c]| (b - a).cross(&(c - a)));
+            let area: f64 = doubled.iter().map(|n| 0.5 * n.norm()).sum();
+            let faces: Vec<_> = doubled
+                .iter()
+                .zip(sides)
+                .map(|(n, [a, ..])| n.normalize() * n.dot(&(a - middle)).signum())
+                .zip(sides)
+                .map(|(n, [a, ..])| (n, n.dot(&(a - middle))))
+                .collect();
+            let radius = radius(&faces, 3.0).unwrap_or(f64::NAN);
+            assert!((radius / (0.5 * six.abs() / area) - 1.0).abs() < 1e-11, "{numbers:?}: {radius}");
+            count += 1;
+        }
+        assert_eq!(count, 14_632);
     }
 
     /// Tangent planes of a sphere, all about it, leave no larger ball.

@@ -15,6 +15,7 @@
 //! | `shape` | the validated definition with its clusters and bounding volumes |
 //! | `potential` | S, its gradient and its Hessian |
 //! | `ray_cast` | the distance from a point inside to the surface |
+//! | `support` | the point that lies farthest along a direction |
 //! | `gauge` | where rays through a piece of a plane leave the particle, and which planes are active there |
 //! | `direction_mesh` | a partition of all directions along faces and edges |
 //! | `quadrature` | a rule on an interval, and what its error is at most |
@@ -40,4 +41,5 @@ pub mod potential;
 pub mod quadrature;
 pub mod ray_cast;
 pub mod shape;
+pub mod support;
 pub mod volume;

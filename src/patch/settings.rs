@@ -35,7 +35,7 @@ impl Default for PatchSettings {
 #[non_exhaustive]
 pub enum PatchError {
     /// [`PatchSettings::tolerance`] is out of range.
-    #[error("tolerance={0} of a patch must lie in [1e-12, 0.1]")]
+    #[error("tolerance={0:?} of a patch must lie in [1e-12, 0.1]")]
     Tolerance(f64),
     /// The contact is separated: it has no patch.
     #[error("the contact is separated: only overlapping contacts have a patch")]

@@ -19,7 +19,7 @@ const FAR: [f64; 2] = [1e4, 1e8];
 
 /// Half extents of domains. Fifth powers of lengths, as moments of inertia are, and those of blocks a millionth as
 /// large, are doubles with all their digits.
-const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
+pub(crate) const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
 
 /// A unit normal, and the height of its plane above some origin.
 pub(crate) type Oriented = (Vector3<f64>, f64);
@@ -77,12 +77,19 @@ fn enclosed_within(planes: &[Oriented], mut half: f64) -> Result<(Vector3<f64>, 
     let (mut origin, mut cutter) = (Vector3::zeros(), Cutter::default());
     for _ in 0..4 {
         let mut polyhedron = Polyhedron::cube(half, LEAST_CUT * half);
+        // A point that mostly shows that a cut leaves something, without a walk to the lowest corner.
+        let mut inside = Vector3::zeros();
         for (i, (n, d)) in planes.iter().enumerate() {
             let height = d - n.dot(&origin);
-            if !(polyhedron.lowest(&mut cutter, n) < height - LEAST_CUT * half) {
+            let is_left = |lowest: f64| lowest < height - LEAST_CUT * half;
+            let is_shown = is_left(n.dot(&inside));
+            if !(is_shown || is_left(polyhedron.lowest(&mut cutter, n))) {
                 return Err(RockError::Empty);
             }
             polyhedron.cut(&mut cutter, OF_CUBE + i, n, height);
+            if !is_shown {
+                inside = polyhedron.middle();
+            }
         }
         let is_open = polyhedron.outlines().iter().any(|face| face.number < OF_CUBE);
         if is_open {

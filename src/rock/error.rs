@@ -6,7 +6,7 @@ use thiserror::Error;
 #[derive(Clone, Debug, Error, PartialEq)]
 pub enum RockError {
     /// A number is not finite or outside its range.
-    #[error("{name} = {value} must be {range}")]
+    #[error("{name} = {} must be {range}", number(*value))]
     OutOfRange {
         /// Which number.
         name: &'static str,
@@ -51,7 +51,8 @@ pub enum RockError {
     Open,
     /// More blocks than allowed would be made: reported before the first joint cuts.
     #[error(
-        "some {expected:.0} blocks or more are expected, more than most_blocks = {most}: fewer joints, larger spacings or a larger most_blocks"
+        "some {} blocks or more are expected, more than most_blocks = {most}: fewer joints, larger spacings or a larger most_blocks",
+        number(expected.round())
     )]
     TooManyExpected {
         /// Blocks that planes in general position would make at least; of many joints an estimate.
@@ -67,6 +68,12 @@ pub enum RockError {
         /// The limit.
         most: usize,
     },
+}
+
+/// A number as it is written: with a power of ten where its digits would fill lines.
+fn number(value: f64) -> String {
+    let plain = value.to_string();
+    if plain.len() < 20 { plain } else { format!("{value:e}") }
 }
 
 /// The number, if it is in its range.

@@ -179,6 +179,8 @@ mod tests {
         assert!(JointSet { spacing: 1e-9, ..set }.joints([0.0; 3], 10.0).is_err());
         let text = JointSet { dip: 95.0, ..set }.joints([0.0; 3], 1.0).unwrap_err().to_string();
         assert_eq!(text, "dip = 95 must be an angle from 0 to 90 degrees");
+        let text = JointSet::new(30.0, 60.0, 1e-300).joints([0.0; 3], 1.0).unwrap_err().to_string();
+        assert_eq!(text, "spacing = 1e-300 must be wide enough for at most 10 million joints");
     }
 
     /// By the mean over the distribution, whose density of cos θ goes with e^(κ cos θ).

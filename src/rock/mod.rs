@@ -38,7 +38,7 @@ mod slicing;
 mod tests;
 
 pub use block::{Block, BlockFace, FaceOf};
-pub(crate) use domain::{enclosed, unit_planes};
+pub(crate) use domain::{EXTENTS, enclosed, unit_planes};
 pub use error::RockError;
 pub use joint::Joint;
 pub use joint_set::JointSet;

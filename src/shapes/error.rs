@@ -1,8 +1,9 @@
 //! Why input makes no shape.
 
+use super::rounding::MOST_ROUNDED;
 use crate::particle::error::ParticleError;
 use crate::particle::plane::MAX_PLANES;
-use crate::rock::RockError;
+use crate::rock::{EXTENTS, RockError};
 use thiserror::Error;
 
 /// Why input makes no shape. Each names the value and the remedy.
@@ -32,6 +33,9 @@ pub enum ShapeError {
          farther apart, or, if they are, nearer to the origin"
     )]
     Flat(usize),
+    /// The extent of a body, the largest edge of the box about it, is out of range.
+    #[error("the extent of the body is {0:?}, and must lie between 1e-50 and 1e50: take another unit of length")]
+    Extent(f64),
     /// A half-space has no normal, or numbers that are not finite.
     #[error("plane {0} is none: its normal must have a length, and its numbers must be finite")]
     NoPlane(usize),
@@ -47,6 +51,9 @@ pub enum ShapeError {
          its planes are from the origin"
     )]
     Open,
+    /// More faces than are rounded.
+    #[error("{0} faces are more than the {MOST_ROUNDED} that are rounded: take fewer, as fitted() or planes= do")]
+    TooManyFaces(usize),
     /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at
     /// which faces are one.
     #[error("the planes enclose a body that is flat, to 1e-6 of its extent: move them apart")]
@@ -142,6 +149,7 @@ impl From<RockError> for ShapeError {
         match error {
             RockError::NoPlane(plane) => Self::NoPlane(plane),
             RockError::Open => Self::Open,
+            RockError::Extent(half) => Self::Extent(2.0 * half),
             _ => Self::Empty,
         }
     }
@@ -172,7 +180,13 @@ pub(super) fn within(value: f64, is_inside: bool, name: &'static str, range: &'s
     if value.is_finite() && is_inside { Ok(value) } else { Err(ShapeError::OutOfRange { name, value, range }) }
 }
 
-/// The number, if it is finite and above 0.
+/// The number, if it is a length above 0 whose powers are numbers.
 pub(super) fn positive(value: f64, name: &'static str) -> Result<f64, ShapeError> {
-    within(value, value > 0.0, name, "finite and above 0")
+    let range = if value > 0.0 && value.is_finite() { "from 1e-50 to 1e50" } else { "finite and above 0" };
+    within(value, EXTENTS.contains(&value), name, range)
+}
+
+/// The extent of a body, if its powers are numbers.
+pub(super) fn refuse_extent(extent: f64) -> Result<(), ShapeError> {
+    if EXTENTS.contains(&extent) { Ok(()) } else { Err(ShapeError::Extent(extent)) }
 }

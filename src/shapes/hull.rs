@@ -5,7 +5,7 @@
 //! The triangles below that point are connected; those in whose plane it lies do not count. Triangles from the point to
 //! the edges around them take their place. Each point is kept with one triangle that it lies above.
 
-use super::error::ShapeError;
+use super::error::{ShapeError, refuse_extent};
 use crate::particle::coplanar;
 use nalgebra::Vector3;
 use robust::{Coord3D, orient3d};
@@ -32,7 +32,7 @@ impl Triangle {
 /// The triangles of the convex hull, corners counter-clockwise from outside; neighbours may lie in one plane.
 ///
 /// # Errors
-/// Points that are not finite, fewer than four, or all in a plane.
+/// Points that are not finite, fewer than four, all in a plane, or whose extent is out of range.
 pub(super) fn triangles(points: &[Vector3<f64>]) -> Result<Vec<[u32; 3]>, ShapeError> {
     if let Some(index) = points.iter().position(|point| !point.iter().all(|c| c.is_finite())) {
         return Err(ShapeError::PointNotFinite(index));
@@ -42,9 +42,10 @@ pub(super) fn triangles(points: &[Vector3<f64>]) -> Result<Vec<[u32; 3]>, ShapeE
     }
     let flat = ShapeError::Flat(points.len());
     let extent = coplanar::extent(points);
-    if !(extent > 0.0 && extent.is_finite()) {
+    if extent == 0.0 {
         return Err(flat);
     }
+    refuse_extent(extent)?;
     // By a power of two, which changes no digit.
     let scale = 2f64.powi(-(extent.log2().floor() as i32));
     let share = |c: f64| if c.abs() > LEAST_SHARE { c } else { 0.0 };

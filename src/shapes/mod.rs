@@ -13,8 +13,11 @@
 //! | `sharp_body` | a convex body of points or half-spaces: faces, corners, volume, centroid |
 //! | `surface` | whether triangles are the whole surface of their convex hull |
 //! | `principal_frame` | principal axes as near to the given ones as they can be |
+//! | `touching` | planes that let a particle touch its faces where many share a rounding |
 //! | `rounding` | from a sharp body to a particle about its own centroid |
-//! | `solids` | the builders |
+//! | `solids` | the builders of bodies with flat faces |
+//! | `round` | cylinders, cones, ellipsoids and capsules |
+//! | `fitting` | few planes for points or surfaces of many |
 //!
 //! ```
 //! use potential_particles::shapes::{self, Rounding};
@@ -30,21 +33,27 @@
 //! ```
 
 mod error;
+mod fitting;
 mod hull;
 mod principal_frame;
+mod round;
 mod rounding;
 mod sharp_body;
 mod solids;
 mod surface;
+mod touching;
 
 pub use error::ShapeError;
+pub use fitting::{fitted, superquadric};
+pub use round::{SIDES, capsule, cone, cylinder, ellipsoid};
 pub use rounding::{Rounding, Shape};
-pub use solids::{cuboid, cylinder, frustum, half_spaces, hull, known_hull, prism, regular_solid, sphere, surface};
+pub use solids::{cuboid, frustum, half_spaces, hull, known_hull, prism, regular_solid, sphere, surface};
 #[doc(hidden)]
 pub use solids::{sharp_hull, sharp_planes};
 // The sharp bodies of the C interface.
 #[cfg(feature = "capi")]
 pub(crate) use {
+    fitting::of_hull,
     principal_frame::principal_orientation,
     sharp_body::SharpBody,
     solids::{sharp_frustum, sharp_regular_solid},

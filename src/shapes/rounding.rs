@@ -15,6 +15,7 @@
 use super::error::{ShapeError, positive, within};
 use super::principal_frame::principal_orientation;
 use super::sharp_body::SharpBody;
+use super::touching::Touching;
 use crate::linalg::root::MOST_STEPS;
 use crate::particle::mass_properties::{self, MASS_TOLERANCE, MassProperties};
 use crate::particle::particle::Particle;
@@ -29,6 +30,18 @@ use nalgebra::{Matrix3, Vector3};
 const CENTRED: f64 = 1e-5;
 const ROUGHLY: f64 = 1e-4;
 
+/// Planes beyond which mass properties are found to `FEWER_DIGITS`: the time goes with their number.
+const FEW_PLANES: usize = 30;
+const FEWER_DIGITS: f64 = 1e-4;
+
+/// Most planes that are rounded: beyond, it takes more than some seconds.
+pub(super) const MOST_ROUNDED: usize = 4_096;
+
+/// The tolerance to which the mass properties of a shape are found, relative.
+pub(super) fn usual_tolerance(planes: usize) -> f64 {
+    if planes > FEW_PLANES { FEWER_DIGITS } else { MASS_TOLERANCE }
+}
+
 /// How edges and corners are rounded. The size of a body is the diameter of the largest ball that fits into it while it
 /// is sharp.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -38,11 +51,12 @@ pub struct Rounding {
     shadow_radius: Option<Extent>,
 }
 
-/// A length, or a share of the size.
+/// A length, a share of the size, or what the builder takes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Extent {
     Length(f64),
     OfSize(f64),
+    Chosen,
 }
 
 impl Extent {
@@ -50,6 +64,7 @@ impl Extent {
         match self {
             Self::Length(length) => length,
             Self::OfSize(share) => share * size,
+            Self::Chosen => Rounding::SHARE * size,
         }
     }
 }
@@ -65,11 +80,30 @@ impl Rounding {
     /// The rounding radius of the default, as a share of the size.
     pub const SHARE: f64 = 0.05;
 
-    /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1]: 0 leaves faces
-    /// flat, 1 makes a sphere of radius R. R, the radius of the shadow sphere, is the distance from the centre to the
-    /// farthest corner.
+    /// By the rounding radius r as a share of the size, in (0, 0.5), and the sphericity k, in [0, 1): 0 leaves faces
+    /// flat, towards 1 the shape becomes a sphere of radius R. R, the radius of the shadow sphere, is the distance from
+    /// the centre to the farthest corner.
     pub fn new(share: f64, k: f64) -> Self {
         Self { r: Extent::OfSize(share), k, shadow_radius: None }
+    }
+
+    /// By k alone: r is what the builder takes, a twentieth of the size, or what keeps the size of its shape ([`cone`],
+    /// [`fitted`]).
+    ///
+    /// [`cone`]: super::cone
+    /// [`fitted`]: super::fitted
+    pub fn chosen(k: f64) -> Self {
+        Self { r: Extent::Chosen, ..Self::new(0.0, k) }
+    }
+
+    /// Whether the builder takes r.
+    pub(super) fn is_chosen(&self) -> bool {
+        self.r == Extent::Chosen
+    }
+
+    /// The same with r, length.
+    pub(super) fn with_radius(self, r: f64) -> Self {
+        Self { r: Extent::Length(r), ..self }
     }
 
     /// The same by r, length, in (0, half the size).
@@ -88,7 +122,7 @@ impl Rounding {
     }
 
     /// r, k and R, lengths.
-    fn lengths(&self, size: f64) -> Result<(f64, f64, Option<f64>), ShapeError> {
+    pub(super) fn lengths(&self, size: f64) -> Result<(f64, f64, Option<f64>), ShapeError> {
         match self.r {
             Extent::OfSize(share) => {
                 let range = "a share of the size between 0 and 0.5 (a sphere has k = 1 and no planes)";
@@ -97,9 +131,14 @@ impl Rounding {
             Extent::Length(r) if positive(r, "r")? >= 0.5 * size => {
                 return Err(ShapeError::RadiusTooLarge { r, limit: 0.5 * size });
             }
-            Extent::Length(_) => {}
+            Extent::Length(_) | Extent::Chosen => {}
         }
-        let k = within(self.k, (0.0..=1.0).contains(&self.k), "k", "between 0 and 1")?;
+        let range = if self.k == 1.0 {
+            "below 1: there no face is left, and sphere(R) has that shape"
+        } else {
+            "from 0 to below 1"
+        };
+        let k = within(self.k, (0.0..1.0).contains(&self.k), "k", range)?;
         if let Some(Extent::Length(given) | Extent::OfSize(given)) = self.shadow_radius {
             positive(given, "R")?;
         }
@@ -113,8 +152,12 @@ impl Rounding {
 pub struct Shape {
     /// The particle.
     pub particle: Particle,
-    /// Volume, centroid and inertia in the particle's frame, to 1e-6.
+    /// Volume, centroid and inertia in the particle's frame, to 1e-6; with more than 30 planes to 1e-4, and in fact to
+    /// some thousandths of that.
     pub mass: MassProperties,
+    /// The volume of what it was made of: the sharp body, or the round one that was asked for. Rounding takes away the
+    /// rest.
+    pub sharp_volume: f64,
     /// The origin of the particle's frame in that of the builder, length.
     pub centroid: Vector3<f64>,
     /// The quaternion (w, x, y, z), w ≥ 0, from the particle's frame to the builder's: x_builder = centroid +
@@ -129,21 +172,41 @@ impl Shape {
         Pose::new(self.centroid.into(), self.orientation).expect("a finite centroid and a unit quaternion")
     }
 
-    /// A sharp body, rounded. `tolerance`: of volume, centroid and inertia, relative.
-    pub(crate) fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: f64) -> Result<Self, ShapeError> {
+    /// A sharp body, rounded. `tolerance`: of volume, centroid and inertia, relative; by default [`usual_tolerance`].
+    pub(crate) fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: Option<f64>) -> Result<Self, ShapeError> {
         let size = body.size()?;
         let (r, k, shadow_radius) = rounding.lengths(size)?;
+        if body.planes.len() > MOST_ROUNDED {
+            return Err(ShapeError::TooManyFaces(body.planes.len()));
+        }
+        let tolerance = tolerance.unwrap_or_else(|| usual_tolerance(body.planes.len()));
+        let mut touching = Touching::default();
         let definition = |centre: &Vector3<f64>| {
             let shadow_radius = shadow_radius.unwrap_or_else(|| body.farthest(centre));
-            Definition { planes: lowered(&body.heights(centre), r, k, shadow_radius), r, k, shadow_radius }
+            let faces = body.heights(centre);
+            let planes = lowered(&faces, r, k, shadow_radius);
+            let make = |planes: &[Plane]| Particle::new(planes, r, k, shadow_radius).ok();
+            Definition { planes: touching.moved(&faces, planes, make), r, k, shadow_radius }
         };
         let shape = Self::settled(definition, body.centroid, size, tolerance)?;
-        Ok(Self { centroid: shape.centroid + body.origin, ..shape })
+        Ok(Self { centroid: shape.centroid + body.origin, sharp_volume: body.volume, ..shape })
+    }
+
+    /// The same shape `factor` times as large, its centroid where it is.
+    pub(super) fn resized(self, factor: f64) -> Result<Self, ShapeError> {
+        let MassProperties { volume, centroid, inertia, error } = self.mass;
+        let mass = MassProperties {
+            volume: factor.powi(3) * volume,
+            centroid: factor * centroid,
+            inertia: factor.powi(5) * inertia,
+            error,
+        };
+        Ok(Self { particle: self.particle.scaled(factor)?, mass, ..self })
     }
 
     /// With its centroid as its centre, in principal axes.
     pub(super) fn settled(
-        definition: impl Fn(&Vector3<f64>) -> Definition,
+        mut definition: impl FnMut(&Vector3<f64>) -> Definition,
         mut centre: Vector3<f64>,
         size: f64,
         tolerance: f64,
@@ -171,7 +234,7 @@ impl Shape {
         let particle = found.ok_or_else(|| definition(&centre).no_centre())?;
         let mut mass = mass_properties::of(&particle, tolerance);
         // The centroid is known no better than this.
-        let is_centred = !(mass.centroid.amax() > MASS_TOLERANCE * size);
+        let is_centred = !(mass.centroid.amax() > MASS_TOLERANCE.max(0.1 * tolerance) * size);
         if !is_centred {
             centre += mass.centroid;
         }
@@ -182,7 +245,7 @@ impl Shape {
         } else {
             mass = mass_properties::of(&particle, tolerance);
         }
-        Ok(Self { particle, mass, centroid: centre, orientation })
+        Ok(Self { particle, mass, sharp_volume: mass.volume, centroid: centre, orientation })
     }
 }
 
@@ -203,7 +266,7 @@ pub(super) struct Definition {
 }
 
 impl Definition {
-    fn particle(&self) -> Result<Particle, ShapeError> {
+    pub fn particle(&self) -> Result<Particle, ShapeError> {
         Ok(Particle::new(&self.planes, self.r, self.k, self.shadow_radius)?)
     }
 
@@ -219,10 +282,7 @@ impl Definition {
 }
 
 /// The planes of faces at these heights above the centre.
-fn lowered(faces: &[(Vector3<f64>, f64)], r: f64, k: f64, shadow_radius: f64) -> Vec<Plane> {
-    if k == 1.0 {
-        return Vec::new();
-    }
+pub(super) fn lowered(faces: &[(Vector3<f64>, f64)], r: f64, k: f64, shadow_radius: f64) -> Vec<Plane> {
     let plane = |&(normal, height): &(Vector3<f64>, f64)| {
         // A face beyond the sphere is never reached, and keeps its place.
         let depth = r * ((1.0 - k * (height / shadow_radius).powi(2)).max(0.0) / (1.0 - k)).sqrt();

@@ -1,6 +1,6 @@
 //! A sharp convex body, of points or of half-spaces: its faces, corners, volume and centroid.
 
-use super::error::ShapeError;
+use super::error::{ShapeError, within};
 use super::hull;
 use crate::particle::coplanar::{self, Distinct, Face};
 use crate::particle::error::ParticleError;
@@ -8,7 +8,7 @@ use crate::particle::largest_ball;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::polyhedron::OF_CUBE;
 use crate::particle::volume::{self, Enclosed};
-use crate::rock::{enclosed, unit_planes};
+use crate::rock::{EXTENTS, enclosed, unit_planes};
 use nalgebra::{Matrix3, Vector3};
 
 /// A centroid nearer to the origin than this share of the farthest corner's distance is set to it: sums over the faces
@@ -16,7 +16,6 @@ use nalgebra::{Matrix3, Vector3};
 const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 
 /// Planes, corners and centroid are about `origin`, so that their digits do not depend on how far away the body is.
-#[cfg_attr(not(feature = "capi"), expect(dead_code, reason = "triangles and volume: for the C interface"))]
 pub(crate) struct SharpBody {
     pub origin: Vector3<f64>,
     /// Of its faces, unit normals: half-spaces in their order, those of points by falling area.
@@ -45,7 +44,11 @@ impl SharpBody {
     pub fn of_planes(half_spaces: &[Plane]) -> Result<Self, ShapeError> {
         refuse_many(half_spaces.len())?;
         let units = unit_planes(half_spaces).map_err(ShapeError::NoPlane)?;
-        let (middle, polyhedron) = enclosed(&units)?;
+        let (middle, polyhedron) = enclosed(&units).map_err(|error| {
+            // Beyond the range of sizes rounding makes them seem empty or open.
+            let farthest = units.iter().map(|(_, offset)| offset.abs()).fold(0.0, f64::max);
+            if EXTENTS.contains(&farthest) || farthest == 0.0 { error.into() } else { ShapeError::Extent(farthest) }
+        })?;
         let (corners, outlines) = polyhedron.numbered();
         let fan = |(_, outline): &(usize, Vec<u32>)| -> Vec<[u32; 3]> {
             outline[1..].windows(2).map(|pair| [outline[0], pair[0], pair[1]]).collect()
@@ -116,6 +119,7 @@ impl HullOfPoints {
     /// # Errors
     /// Points that are not finite, fewer than four, or all in a plane; too many faces.
     pub fn new(points: &[Vector3<f64>], known: f64) -> Result<Self, ShapeError> {
+        within(known, known >= 0.0, "known", "finite and at least 0")?;
         let triangles = hull::triangles(points)?;
         let flat = ShapeError::Flat(points.len());
         let (solid, area) = measured(points, triangles.iter().map(|corners| &corners[..]));

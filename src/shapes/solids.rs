@@ -6,7 +6,7 @@ use super::sharp_body::SharpBody;
 use crate::particle::mass_properties::MASS_TOLERANCE;
 use crate::particle::plane::{MAX_PLANES, Plane};
 use nalgebra::Vector3;
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 /// Of half-spaces n·x ≤ d, with normals of any length: the faces of the particle are where these planes are (its own
 /// planes lie deeper, by about r). Planes that make no face are left out.
@@ -67,7 +67,7 @@ pub fn sharp_planes(planes: &[Plane]) -> Result<Vec<Plane>, ShapeError> {
 }
 
 fn rounded(body: &SharpBody, rounding: &Rounding) -> Result<Shape, ShapeError> {
-    Shape::of_body(body, rounding, MASS_TOLERANCE)
+    Shape::of_body(body, rounding, None)
 }
 
 /// A sphere: k = 1.
@@ -128,15 +128,6 @@ pub(crate) fn sharp_frustum(sides: usize, radius: f64, top_radius: f64, height: 
     };
     let ends = [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(2, sign), offset: 0.5 * height });
     SharpBody::of_planes(&(0..sides).map(side).chain(ends).collect::<Vec<_>>())
-}
-
-/// A cylinder along z as a prism of as many sides, whose section has the area π radius².
-///
-/// # Errors
-/// Those of [`prism`].
-pub fn cylinder(radius: f64, height: f64, sides: usize, rounding: &Rounding) -> Result<Shape, ShapeError> {
-    let inner = positive(radius, "radius")? * (PI / (sides as f64 * (PI / sides as f64).tan())).sqrt();
-    prism(sides, inner, height, rounding)
 }
 
 /// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.

@@ -129,13 +129,13 @@ impl Call<'_> {
         }
     }
 
-    /// Flags points that are free to move along flat faces: the part of P1 − P2 along the faces then depends on the
-    /// regularisation.
+    /// Flags points that are free to move along flat faces, where the part of P1 − P2 along the faces depends on the
+    /// regularisation, and points that are farther apart along the surface than across it, as along faces that are
+    /// nearly flat: their distance is no depth.
     pub fn flag_free(&mut self, points: &[CertifiedPoint; 2]) {
         let bodies = self.bodies();
-        if !bodies.iter().any(|body| body.is_plain()) {
-            self.flags.set(Flags::FREE, is_free(bodies, points));
-        }
+        let is_plain = bodies.iter().any(|body| body.is_plain());
+        self.flags.set(Flags::FREE, is_aslant(points) || !is_plain && is_free(bodies, points));
     }
 
     fn certified(&self, problem: Problem, solution: &Solution, model: &LocalModel) -> CertifiedPoint {
@@ -143,6 +143,12 @@ impl Call<'_> {
         let bound = point_bound(solution, model, self.bodies(), problem);
         CertifiedPoint { x, lambda, gradients, gradient_norms, values, scale: self.scale(solution, problem), bound }
     }
+}
+
+/// Whether P1 − P2 is longer along the surface at P1 than across it.
+fn is_aslant([p1, p2]: &[CertifiedPoint; 2]) -> bool {
+    let (across, way) = (p1.gradients[0].dot(&(p1.x - p2.x)), p1.x - p2.x);
+    way.norm_squared() * p1.gradient_norms[0] * p1.gradient_norms[0] > 2.0 * across * across
 }
 
 /// Share of P1 − P2 along the faces above which P1 − P2 is longer by more than rounding.

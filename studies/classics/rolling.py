@@ -8,7 +8,7 @@ there are: its angular momentum about the new edge is kept, that about its axis 
 
 import numpy as np
 import yade
-from potential_particles import shapes
+from potential_particles import fitting, shapes
 from yade import O
 
 from report import row, target
@@ -33,7 +33,7 @@ def simulate(sides, slope=SLOPE, way=WAY):
     scene.block(box_corners(16.0, 4.0, 1.0), fixed=True, position=(0.0, 0.0, -0.5))
     shape = shapes.cylinder(RADIUS, WIDTH, sides, rounding=ROUNDING, k=0.0)
     # On a side, its axis along y.
-    height = RADIUS * np.sqrt(np.pi / (sides * np.tan(np.pi / sides)))
+    height = float(fitting.radii(shape.planes, shape.r, shape.k, shape.R, np.array([(1.0, 0.0, 0.0)]))[0])
     turn = yade.Quaternion((1, 0, 0), 0.5 * np.pi)
     roller = scene.add(shape, orientation=turn, position=(-3.0, 0.0, height))
     scene.start(FRICTION, gravity=tilted_gravity(slope))

@@ -33,7 +33,7 @@ static bool all_nan(const double v[3]) {
 void check_consistent(const pp_contact *contact, const pp_pose *pose_a, const pp_pose *pose_b,
                       const pp_settings *settings) {
     CHECK(contact->reserved == 0);
-    CHECK(contact->flags < 2 * PP_FLAG_ROUNDING_LIMITED);
+    CHECK((contact->flags & ~(PP_FLAG_FREE | PP_FLAG_DEEP)) < 2 * PP_FLAG_ROUNDING_LIMITED);
     CHECK((contact->flags & PP_FLAG_REJECTED) == 0);
     CHECK(contact->back_end == settings->back_end);
     CHECK(contact->formulation == (contact->flags & PP_FLAG_SLACK ? PP_MIDWAY : settings->formulation));

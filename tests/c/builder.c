@@ -122,6 +122,10 @@ static void a_polyhedron_is_sharp_until_it_is_rounded(void) {
     pp_polyhedron_free(other);
     CHECK(pp_polyhedron_from_faces(NULL, 6, &other, why, sizeof why) == PP_NULL_POINTER && strstr(why, "NULL"));
     CHECK(pp_polyhedron_from_points(&points[0][0], 8, 0.0, NULL, NULL, 0) == PP_NULL_POINTER);
+    const double unknown[3] = { NAN, -1.0, -INFINITY };
+    for (int i = 0; i < 3; i++)
+        CHECK(pp_polyhedron_from_points(&points[0][0], 8, unknown[i], &other, why, sizeof why) == PP_BAD_SETTING
+              && strstr(why, "known="));
     CHECK(pp_polyhedron_faces(NULL, &faces[0][0], 6, &count) == PP_NULL_POINTER);
     CHECK(pp_polyhedron_corners(brick, NULL, 8, &count) == PP_NULL_POINTER);
     CHECK(pp_polyhedron_properties(brick, NULL, &size) == PP_NULL_POINTER);
@@ -153,7 +157,67 @@ static void a_polyhedron_is_sharp_until_it_is_rounded(void) {
     CHECK_NEAR(axes[3], sin(acos(-1.0) / 12.0), 1e-12);
 }
 
+/* Round bodies have the size that is asked for: volume and inertia in closed form. */
+static void round_bodies_keep_their_size(void) {
+    const double pi = 3.14159265358979323846;
+    const double sizes[5][5] = { { 0.5, 1.0 }, { 0.5, 1.0 }, { 1.0, 0.7, 0.5 }, { 0.5, 1.0 }, { 1, 0.7, 0.5, 1, 1 } };
+    const double right[5] = { pi / 4, pi / 12, 1.4 / 3 * pi, pi / 4 + pi / 6, 1.4 / 3 * pi };
+    for (uint32_t form = PP_ROUND_CYLINDER; form <= PP_ROUND_SUPERQUADRIC; form++) {
+        pp_particle *particle = NULL;
+        pp_built built;
+        char why[PP_MESSAGE_SIZE];
+        CHECK(pp_particle_round(form, sizes[form], 0, 0.0, 0.02, 0.0, &particle, &built, why, sizeof why) == PP_OK);
+        CHECK_NEAR(built.mass.volume / right[form], 1.0, 5e-3);
+        CHECK_NEAR(built.sharp_volume / right[form], 1.0, 1e-12);
+        pp_particle_free(particle);
+    }
+    pp_particle *none = NULL;
+    char why[PP_MESSAGE_SIZE];
+    CHECK(pp_particle_round(5, sizes[0], 0, 0.0, 0.0, 0.0, &none, NULL, why, sizeof why) == PP_BAD_INDEX && !none);
+    CHECK(pp_particle_round(PP_ROUND_CONE, sizes[0], 2, 0.0, 0.0, 0.0, &none, NULL, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "sides=2"));
+    CHECK(pp_particle_round(PP_ROUND_CONE, NULL, 0, 0.0, 0.0, 0.0, &none, NULL, why, sizeof why) == PP_NULL_POINTER);
+    CHECK(pp_particle_round(PP_ROUND_CYLINDER, sizes[0], 0, 0.0, 1.0, 0.0, &none, NULL, why, sizeof why)
+              == PP_BAD_SPHERICITY
+          && strstr(why, "sphere(R)"));
+
+    /* A scan of many faces: few planes, its volume. */
+    pp_polyhedron *many = NULL;
+    double mass[2];
+    CHECK(pp_polyhedron_prism(100, 0.5, 0.5, 1.0, &many, NULL, 0) == PP_OK);
+    pp_mass_properties sharp;
+    CHECK(pp_polyhedron_properties(many, &sharp, &mass[0]) == PP_OK);
+    pp_built built;
+    CHECK(pp_particle_fitted(many, 30, 0.0, 0.0, 0.02, 0.0, 0.0, &none, &built, why, sizeof why) == PP_OK);
+    CHECK_NEAR(built.mass.volume / sharp.volume, 1.0, 1e-9);
+    size_t count = 0;
+    CHECK(pp_particle_planes(none, NULL, 0, &count) == PP_BUFFER_TOO_SMALL && count <= 30);
+    pp_particle_free(none);
+    none = NULL;
+    CHECK(pp_particle_fitted(many, 3, 0.0, 0.0, 0.0, 0.0, 0.0, &none, NULL, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "planes=3"));
+    CHECK(pp_particle_fitted(many, 30, 0.0, 0.0, 0.0, 0.0, 2.0, &none, NULL, why, sizeof why) == PP_BAD_SETTING);
+    CHECK(pp_particle_fitted(NULL, 30, 0.0, 0.0, 0.0, 0.0, 0.0, &none, NULL, why, sizeof why) == PP_NULL_POINTER);
+    pp_polyhedron_free(many);
+}
+
+/* Points on a line are flat, and sizes out of range are told. */
+static void what_has_no_size_is_told(void) {
+    double line[10][3], tiny[4][3] = { { 0 } };
+    for (int i = 0; i < 10; i++)
+        for (int axis = 0; axis < 3; axis++) line[i][axis] = i / 9.0 * (axis == 0 ? 1.0 : axis == 1 ? 0.3 : 0.7);
+    for (int i = 0; i < 3; i++) tiny[i + 1][i] = 1e-90;
+    pp_polyhedron *out = NULL;
+    char why[PP_MESSAGE_SIZE];
+    CHECK(pp_polyhedron_from_points(&line[0][0], 10, 0.0, &out, why, sizeof why) == PP_UNBOUNDED && strstr(why, "flat"));
+    CHECK(pp_polyhedron_from_points(&tiny[0][0], 4, 0.0, &out, why, sizeof why) == PP_UNBOUNDED
+          && strstr(why, "1e-50"));
+    CHECK(out == NULL);
+}
+
 void test_builder(void) {
+    round_bodies_keep_their_size();
+    what_has_no_size_is_told();
     a_polyhedron_is_sharp_until_it_is_rounded();
     a_hull_is_known_by_its_frame();
     what_is_no_body_is_told();

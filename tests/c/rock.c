@@ -103,6 +103,26 @@ static void sets_have_their_spacing(void) {
     CHECK_STATUS(pp_joint_set_joints(NULL, middle, 2.1, joints, 16, &count, NULL, 0), PP_NULL_POINTER);
 }
 
+/* A corner with the legs a, b, c has the products V a b/80 of x and y, and so on, in the order of all tensors: its
+ * principal axes are those of pp_principal_axes, which takes that order. */
+static void the_products_of_inertia_have_the_order_of_all_tensors(void) {
+    const double legs[3] = { 1.0, 0.6, 0.3 }, volume = legs[0] * legs[1] * legs[2] / 6;
+    const double planes[4][4] = {
+        { -1, 0, 0, 0 }, { 0, -1, 0, 0 }, { 0, 0, -1, 0 }, { 1 / legs[0], 1 / legs[1], 1 / legs[2], 1 }
+    };
+    pp_rock *rock = NULL;
+    char why[PP_MESSAGE_SIZE];
+    CHECK_STATUS(pp_rock_new(planes[0], 4, NULL, 0, NULL, NULL, NULL, NULL, 0, NULL, NULL, NULL, &rock, why, sizeof why),
+                 PP_OK);
+    pp_block block;
+    size_t count;
+    CHECK_STATUS(pp_rock_blocks(rock, &block, 1, &count), PP_OK);
+    CHECK_NEAR(block.volume, volume, 1e-14);
+    for (int i = 0; i < 3; i++)
+        CHECK_NEAR(block.inertia[3 + i], volume * legs[i] * legs[(i + 1) % 3] / 80, 1e-15);
+    pp_rock_free(rock);
+}
+
 static void a_grid_of_eight(void) {
     pp_rock *rock = cut(NULL, 0, NULL, NULL, NULL);
     pp_rock_summary sum;
@@ -244,6 +264,7 @@ void test_rock(void) {
     joints_have_dip_and_direction();
     polygons_cut_what_they_reach();
     sets_have_their_spacing();
+    the_products_of_inertia_have_the_order_of_all_tensors();
     a_grid_of_eight();
     a_tunnel_parts_what_it_meets();
     limits_and_an_end();

@@ -81,6 +81,7 @@ def test_shape_files(folder):
             "shape a\nr 0.01\nk 0\nR 0.1\nplane 1 0 x 0.1\nend": "bad.txt:5: c = x",
             "shape a\nr 0.01\nk 0\nR 0.1\nplane 1 0 0 0.1\nend": "bad.txt:6: shape a:",
             "shape a\nr 0.01\nq 0": "bad.txt:3: 'q'",
+            "\ufeffshape a\nr 0.01\nq 0": "bad.txt:3: 'q'",
             "shape a\nr 0.01\nk 1\nR 0.1": "has no end",
             "# nothing": "no shape in the file",
             "r 1": "outside a shape",

@@ -8,6 +8,7 @@ import re
 import resource
 import subprocess
 import tempfile
+import threading
 import warnings
 
 import numpy as np
@@ -105,6 +106,42 @@ O.load(path("link.yade"))
 check.equal(len(O.bodies), bodies, "loaded")
 check.raises(OSError, lambda: potential_particles.save(path("nowhere/scene.xml")), "no folder", "nowhere")
 check.raises(OSError, lambda: potential_particles.save(folder), "a folder")
+
+# What lies beside a file is nobody's business: neither a file nor a link of a name like ours is touched, a name may be
+# as long as names can be, and of two writers at once one whole file stays.
+victim, longest = path("victim.txt"), path("n" * 251 + ".txt")
+for name in ("victim.txt", "one.txt.part"):
+    with open(path(name), "w") as file:
+        file.write("precious")
+os.symlink(victim, path("two.txt.part"))
+for name in ("one.txt", "two.txt", longest):
+    with potential_particles.files.written(path(name), text=True) as file:
+        file.write("new")
+    check.equal(open(path(name)).read(), "new", f"{name[-20:]}: written")
+    check.equal(os.stat(path(name)).st_mode & 0o777, 0o666 & ~os.umask(os.umask(0o022)), "with the permissions of any file")
+check.equal([open(name).read() for name in (victim, path("one.txt.part"))], ["precious"] * 2, "what lies beside it")
+
+
+def write_again(letter):
+    for _ in range(100):
+        with potential_particles.files.written(path("shared.txt"), text=True) as file:
+            for _ in range(10):
+                file.write(letter * 1000)
+                file.flush()
+
+
+writing = [threading.Thread(target=write_again, args=letter) for letter in "ab"]
+with potential_particles.files.written(path("shared.txt"), text=True) as file:
+    file.write("a" * 10_000)
+for one in writing:
+    one.start()
+torn = 0
+while any(one.is_alive() for one in writing):
+    text = open(path("shared.txt")).read()
+    torn += len(text) != 10_000 or len(set(text)) != 1
+check.equal(torn, 0, "reads of a file that two write")
+check.equal(sorted(name for name in os.listdir(folder) if name.endswith(".part")), ["one.txt.part", "two.txt.part"],
+            "nothing is left over")
 
 # Numbers in a file that are none.
 potential_particles.save(path("joints.xml"))

@@ -77,7 +77,7 @@ for planes in 12, 30, 100:
     check.true(f"{shape.fit.largest:.2g} of its diameter" in repr(shape) and "\n" not in repr(shape),
                "its line says so")
     errors.append(shape.fit.mean)
-check.true(errors[0] > 1.5 * errors[1] > 2.25 * errors[2], f"more planes come nearer: {errors}")
+check.true(errors[0] > 1.5 * errors[1] > 1.5 * errors[2], f"more planes come nearer: {errors}")
 check.close(shape.scaled(2.0).fit.volume, 8 * shape.fit.volume, 1e-9, "scaled")
 exact = shapes.from_mesh(file, error=0.03)
 check.true(exact.fit.largest <= 0.03 and len(exact.planes) < 40, f"a given error: {exact}")
@@ -101,14 +101,16 @@ check.true(len(shape.planes) > 1900, f"all of them: {len(shape.planes)}")
 check.true(0.985 < shape.volume / hull.volume < 0.995 and not said,
            f"all faces, r chosen: {shape.volume / hull.volume}, {said}")
 shape, said = told(lambda: shapes.from_mesh(file, rounding=0.05, planes="all"))
-check.true(
-    len(said) == 1 and "% less volume than the surface" in said[0] and f"{shape.r:.3g}" in said[0], f"r = 0.05: {said}")
+check.true(shape.volume / hull.volume > 0.98 and not said, f"r = 0.05: {shape.volume / hull.volume}, {said}")
 corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)], float)
 faces = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
          (1, 5, 7), (1, 7, 3)]
 cube, said = told(lambda: shapes.from_mesh(write(corners, faces, "cube")))
 check.equal((len(cube.planes), said), (6, []), "a cube has its six faces")
 check.close(cube.r, 0.1, 1e-9, "and the default r, which costs less than a hundredth")
+shape, said = told(lambda: shapes.from_mesh(os.path.join(folder, "cube.obj"), rounding=0.2))
+check.true(
+    len(said) == 1 and "% less volume than the surface" in said[0] and f"{shape.r:.3g}" in said[0], f"r = 0.2: {said}")
 few = shapes.from_vertices(corners, planes=30)
 check.true(len(few.planes) == 6 and few.fit.largest < 0.02, f"no more planes than faces: {few}")
 

@@ -95,6 +95,18 @@ for sides in (3, 6, 7):
         shapes.prism(sides, 0.5, 2.0, **sharp).volume / (2 * area), 1.0, 1e-5, f"volume of a prism of {sides} sides")
 cylinder = shapes.cylinder(0.5, 2.0, 48, **sharp)
 check.close(cylinder.volume / (math.pi / 2), 1.0, 1e-4, "volume of a cylinder")
+# Round bodies have the size that is asked for, by default and with more sides.
+for name, made, volume in [("cylinder", shapes.cylinder(0.05, 0.1), math.pi * 0.05**2 * 0.1),
+                           ("cylinder of 256 sides", shapes.cylinder(0.05, 0.1, 256), math.pi * 0.05**2 * 0.1),
+                           ("cone", shapes.cone(0.5, 1.0), math.pi / 12),
+                           ("ellipsoid", shapes.ellipsoid((1, 0.7, 0.5)), 1.4 / 3 * math.pi),
+                           ("capsule", shapes.capsule(0.5, 1.0), math.pi * (0.25 + 1 / 6)),
+                           ("superquadric", shapes.superquadric((1, 0.7, 0.5), (1, 1)), 1.4 / 3 * math.pi)]:
+    check.close(made.volume / volume, 1.0, 5e-3, f"volume of a {name}")
+    check.close(made.sharp_volume / volume, 1.0, 1e-9, "and that of what was asked for")
+    check.close(made.particle().massProperties(1e-5)[0] / made.volume, 1.0, 1e-5, "as YADE has it")
+    check.close(made.scaled(2.0).sharp_volume / volume, 8.0, 1e-8, "twice as large")
+check.raises(ValueError, lambda: shapes.cuboid(k=1), "k = 1 has no faces", "sphere(R)")
 pyramid = shapes.prism(4, 0.5, 1.0, top_radius=0.0, **sharp)
 check.close(pyramid.volume * 3, 1.0, 1e-5, "volume of a pyramid")
 check.close(pyramid.centroid[2], -0.25, 1e-5, "centroid of a pyramid: a quarter of its height above the base")
@@ -219,4 +231,9 @@ for length in (1e200, 1e-200):
                     for a, b, c in [(1, 0, 0), (-1, 0, 0), (0, 1, 0), (0, -1, 0), (0, 0, 1), (0, 0, -1)]]
     check.close(
         shapes.from_planes(rows_of_cube, rounding=1e-4, k=0.0).volume, 8.0, 1e-3, f"normals of length {length:g}")
+# What R does to a shape is told.
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter("always")
+    shapes.cuboid(R=0.1)
+check.true(any("R=0.1: a sphere of radius" in str(one.message) for one in caught), "a shadow sphere that cuts is told")
 check.finish()

@@ -1,28 +1,23 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Few planes for a surface of many: scans as particles.
 
-The facets of the convex hull are gathered into N groups of like direction, by Lloyd's method on their normals with
-their areas as weights (the metric L2,1 of Cohen-Steiner, Alliez & Desbrun 2004, Variational shape approximation). A
-plane with the mean direction of each group touches the hull, so that the planes lie about it and hold too much; the
-rounding radius r is chosen so that what it takes away at edges and corners is this surplus, and the particle has the
-volume of the surface. Where that takes r out of its range, all planes move by one distance instead.
+The library finds the planes and r: src/shapes/fitting.rs. What is decided here is how many planes there are, and how
+near they come is measured.
 """
 import dataclasses
 import math
 import warnings
 
 import numpy as np
-from scipy.optimize import brentq
 
-from .arguments import MOST_PLANES, positive, whole
-from .polyhedron import Polyhedron, rotation
+from .arguments import positive, whole
+from .polyhedron import rotation
 from .rounding import ROUNDING
 from .shape import Fit
 
-# Of the size: between them r is chosen. Below, overlaps would have to be tiny; beyond, faces are hardly flat any more.
-LEAST_R, MOST_R = 0.02, 0.3
-# A surface whose faces are all kept loses at most this share of its volume to r, if r is not given.
-LOST = 0.01
+# A surface whose faces are all kept loses at most this share of its volume to r, if r is not given; below such a share
+# of the size r gets no smaller.
+LOST, LEAST_SHARE = 0.01, 1e-4
 # Most planes of a surface for which a script says nothing: each costs time in every contact.
 MOST_FACES = 60
 # Beyond this difference of volume a warning is given.
@@ -31,7 +26,7 @@ WARNED = 0.02
 # more.
 TOLERANCE = 1e-3
 
-_ROUNDS, _RAYS, _SAMPLES = 15, 600, 2000
+_SAMPLES = 2000
 # Numbers of planes that are tried for a given error.
 _LADDER = (6, 8, 10, 12, 15, 18, 22, 27, 33, 40, 50, 60, 75, 90, 110, 135, 165, 200, 250, 300, 400, 500, 700, 1000)
 
@@ -47,10 +42,9 @@ def of_surface(hull, samples, volume, rounding, name, planes=None, error=None):
     by_default = planes is None and error is None
     if by_default or planes == "all":
         if planes == "all" or len(hull.planes) <= MOST_FACES:
-            share = ROUNDING if rounding.is_chosen else _share_of_all_faces(hull, rounding)
-            return _with_fit(hull.rounded(*rounding.lengths(hull.size, share), name), samples, volume)
+            return _with_fit(_of_all_faces(hull, rounding, name), samples, volume)
         planes = MOST_FACES
-    most = None if planes is None else whole(planes, 4, MOST_PLANES, "planes")
+    most = None if planes is None else whole(planes, 4, _LADDER[-1], "planes")
     if error is None:
         shape = _of_planes(hull, samples, volume, most, rounding, name)
         if by_default:
@@ -87,101 +81,23 @@ def _warn(text):
 
 
 def _of_planes(hull, samples, volume, number, rounding, name):
-    normals = _directions(hull, number)
-    middle = hull.centroid
-    offsets = (normals @ (hull.corners - middle).T).max(1)
-    outer = Polyhedron.of_planes(normals, offsets)
-    size, centre = outer.size, outer.centroid
-    heights = outer.offsets - outer.normals @ centre
-    given, k, shadow = rounding.lengths(size, 0.1)
-    R = np.linalg.norm(outer.corners - centre, axis=1).max() if shadow is None else shadow
-    rays = _sphere(_RAYS)
-    # Of this grid of rays the volume is off by less than a thousandth; the hull itself says by how much.
-    wanted = volume * (_reach(hull.normals, hull.offsets - hull.normals @ (middle + centre), rays)**
-                       3).sum() / hull.volume
-
-    def surplus(share, shift):
-        return (_radii(_lowered(outer.normals, heights + shift, size * share, k, R), size * share, k, R, rays)**
-                3).sum() - wanted
-
-    # A shift that would turn the body inside out is beyond any fit.
-    least, most = -0.3 * size, 0.3 * size
-    share, shift = given / size, 0.0
-    if not rounding.is_chosen:
-        low, high = surplus(LEAST_R, 0.0), surplus(MOST_R, 0.0)
-        share = LEAST_R if low <= 0.0 else MOST_R if high >= 0.0 else brentq(surplus, LEAST_R, MOST_R,
-                                                                             (0.0, ), xtol=1e-4)
-    if rounding.is_chosen or share in (LEAST_R, MOST_R):
-        if surplus(share, least) > 0.0 or surplus(share, most) < 0.0:
-            raise ValueError(
-                f"{name}: {number} planes about its hull do not enclose the volume of the surface: it is far from convex "
-                "(shapes.clump_from_mesh cuts it into convex parts), or r is too large")
-        shift = brentq(lambda moved: surplus(share, moved), least, most, xtol=1e-6 * size) if k < 1.0 else 0.0
-    polyhedron = outer if shift == 0.0 else Polyhedron.of_planes(outer.normals, outer.offsets + shift)
-    shape = polyhedron.rounded(size * share, k, shadow, name, TOLERANCE)
-    # About its own centroid: it stays where it is.
-    centroid = tuple((np.array(shape.centroid) + middle).tolist())
-    shape = dataclasses.replace(shape.scaled((volume / shape.volume) ** (1.0 / 3.0)), centroid=centroid)
-    return _with_fit(shape, samples, volume)
+    r, k, R = rounding.lengths(hull.size)
+    shape = hull.fitted(number, volume, r if rounding.is_chosen else None, k, R, name, TOLERANCE)
+    return _with_fit(rounding.told_of(shape), samples, volume)
 
 
-def _directions(hull, number):
-    """At most so many unit normals (n, 3) for the facets of a hull."""
-    a, b, c = (hull.corners[hull.triangles[:, i]] for i in range(3))
-    facets = np.cross(b - a, c - a)
-    weights = np.linalg.norm(facets, axis=1)
-    facets = facets / np.where(weights > 0.0, weights, 1.0)[:, None]
-    # The first ones by area times distance from those that there are.
-    chosen = [facets[np.argmax(weights)]]
-    distance = np.full(len(facets), math.inf)
+def _of_all_faces(hull, rounding, name):
+    """With all faces where they are; without a given r the largest, up to the default, that costs at most LOST of the
+    volume.
+    """
+    share = ROUNDING
     while True:
-        distance = np.minimum(distance, ((facets - chosen[-1]) ** 2).sum(1))
-        worst = int(np.argmax(weights * distance))
-        if len(chosen) == number or distance[worst] < 1e-12:
-            break
-        chosen.append(facets[worst])
-    normals = np.array(chosen)
-    for _ in range(_ROUNDS):
-        group = np.argmax(facets @ normals.T, axis=1)
-        sums = np.stack([np.bincount(group, weights * facets[:, axis], len(normals)) for axis in range(3)], axis=1)
-        lengths = np.linalg.norm(sums, axis=1)
-        new = np.where(lengths[:, None] > 0.0, sums / np.where(lengths > 0.0, lengths, 1.0)[:, None], normals)
-        if np.abs(new - normals).max() < 1e-6:
-            break
-        normals = new
-    return normals
-
-
-def _share_of_all_faces(hull, rounding):
-    """The largest r, as a share of the size and up to the default, which costs at most LOST of the volume."""
-    centre, rays = hull.centroid, _sphere(_RAYS)
-    heights = hull.offsets - hull.normals @ centre
-    farthest = np.linalg.norm(hull.corners - centre, axis=1).max()
-    whole_body = (_reach(hull.normals, heights, rays) ** 3).sum()
-
-    def lost(share):
-        r, k, shadow = rounding.lengths(hull.size, share)
-        R = farthest if shadow is None else shadow
-        return 1.0 - (_radii(_lowered(hull.normals, heights, r, k, R), r, k, R, rays) ** 3).sum() / whole_body
-
-    if rounding.k == 1.0 or lost(ROUNDING) <= LOST:
-        return ROUNDING
-    return brentq(lambda share: lost(share) - LOST, 1e-6, ROUNDING, xtol=1e-5) if lost(1e-6) < LOST else 1e-3
-
-
-def _lowered(normals, heights, r, k, R):
-    """Planes (n, 4) of the particle whose faces are at `heights` above its centre: src/shapes/rounding.rs."""
-    if k == 1.0:
-        return []
-    depth = r * np.sqrt(np.maximum(1.0 - k * (heights / R) ** 2, 0.0) / (1.0 - k))
-    return np.column_stack([normals, heights - depth])
-
-
-def _reach(normals, heights, rays):
-    """Where rays (m, 3) from the centre leave {n.x <= h}."""
-    slope = rays @ normals.T
-    with np.errstate(divide="ignore"):
-        return np.where(slope > 0.0, heights / slope, math.inf).min(1)
+        shape = hull.rounded(*rounding.lengths(hull.size, share), name)
+        lost = 1.0 - shape.volume / hull.volume
+        if rounding.is_chosen or lost <= LOST or share < LEAST_SHARE:
+            return rounding.told_of(shape)
+        # It goes with the square of r, or more slowly.
+        share *= max(0.1, 0.9 * math.sqrt(LOST / lost))
 
 
 def _with_fit(shape, samples, volume):
@@ -191,22 +107,22 @@ def _with_fit(shape, samples, volume):
     local = (samples - np.array(shape.centroid)) @ rotation(shape.orientation)
     distance = np.linalg.norm(local, axis=1)
     rays = local / np.where(distance > 0.0, distance, 1.0)[:, None]
-    radii = _radii(shape.planes, shape.r, shape.k, shape.R, rays)
-    gradient = _gradients(shape.planes, shape.r, shape.k, shape.R, rays * radii[:, None])
-    across = np.abs(distance - radii) * (gradient * rays).sum(1) / np.linalg.norm(gradient, axis=1)
+    reach = radii(shape.planes, shape.r, shape.k, shape.R, rays)
+    gradient = _gradients(shape.planes, shape.r, shape.k, shape.R, rays * reach[:, None])
+    across = np.abs(distance - reach) * (gradient * rays).sum(1) / np.linalg.norm(gradient, axis=1)
     diameter = (6.0 * volume / math.pi) ** (1.0 / 3.0)
     return dataclasses.replace(
         shape, fit=Fit(float(across.max() / diameter), float(np.sqrt((across**2).mean()) / diameter), float(volume)))
 
 
-def _sphere(number):
-    """Unit vectors (number, 3) spread evenly: Fibonacci's spiral."""
-    z = 1.0 - (2.0 * np.arange(number) + 1.0) / number
-    angle = np.pi * (3.0 - math.sqrt(5.0)) * np.arange(number)
-    return np.column_stack([np.sqrt(1.0 - z * z) * np.cos(angle), np.sqrt(1.0 - z * z) * np.sin(angle), z])
+def _reach(normals, heights, rays):
+    """Where rays (m, 3) from the centre leave {n.x <= h}."""
+    slope = rays @ normals.T
+    with np.errstate(divide="ignore"):
+        return np.where(slope > 0.0, heights / slope, math.inf).min(1)
 
 
-def _radii(planes, r, k, R, rays):
+def radii(planes, r, k, R, rays):
     """Where rays (n, 3) from the centre leave the particle: the root of S - 1, convex along a ray, by Newton's method
     from outside.
     """

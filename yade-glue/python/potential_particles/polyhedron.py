@@ -8,9 +8,6 @@ import numpy as np
 from . import library
 from .shape import Shape
 
-# Of volume, centroid and inertia, relative.
-TOLERANCE = 1e-6
-
 
 class Polyhedron:
     """{x : n_i.x <= h_i}, bounded. The frame is that of the planes or points of which it is made."""
@@ -113,27 +110,48 @@ class Polyhedron:
         """The diameter of the largest ball that fits inside."""
         return self._properties[1]
 
-    def rounded(self, r, k, R, name, tolerance=TOLERANCE):
+    def rounded(self, r, k, R, name, tolerance=0.0):
         """The Shape whose faces are here, with rounding radius r (length), sphericity k and shadow radius R (length).
 
-        R=None: to the farthest corner. tolerance: of volume and inertia, relative.
+        R=None: to the farthest corner. tolerance: of volume and inertia, relative; 0: 1e-6, or 1e-4 of many planes.
         """
-        built = np.empty(18)
-        given = self._handle, float(r), float(k), float(R or 0.0), float(tolerance)
-        particle = library.made("pp_particle_from_polyhedron", *given, results=[built])
-        try:
-            radii = np.empty(2)
-            library.call("pp_particle_shadow_radius", particle, radii[:1])
-            library.call("pp_particle_bounding_radius", particle, radii[1:])
-            planes = library.rows("pp_particle_planes", particle, 4)
-        finally:
-            library.free("pp_particle_free", particle)
-        shadow, bounding = radii.tolist()
-        built = built.tolist()
-        return Shape(
-            planes=tuple(map(tuple, planes.tolist())), r=float(r), k=float(k), R=shadow, volume=built[7],
-            error=built[17], inertia=tuple(built[11:14]), centroid=tuple(built[:3]), orientation=tuple(built[3:7]),
-            bounding_radius=bounding, name=name)
+        return built("pp_particle_from_polyhedron", self._handle, float(r), float(k), float(R or 0.0), float(tolerance),
+                     name=name)
+
+    def fitted(self, planes, volume, r, k, R, name, tolerance=0.0):
+        """The Shape of at most so many planes that comes nearest and has this volume; r=None: what comes nearest."""
+        return built("pp_particle_fitted", self._handle, int(planes), float(volume), float(r or 0.0), float(k),
+                     float(R or 0.0), float(tolerance), name=name)
+
+
+# Forms of pp_particle_round.
+CYLINDER, CONE, ELLIPSOID, CAPSULE, SUPERQUADRIC = range(5)
+
+
+def round_shape(form, sizes, name, planes=0, rounding=None):
+    """The Shape of the size of a round form; `rounding`: r, None for what keeps the size, k and R, lengths."""
+    r, k, R = rounding or (None, 0.0, None)
+    five = np.zeros(5)
+    five[:len(sizes)] = sizes
+    return built("pp_particle_round", form, five, int(planes), float(r or 0.0), float(k), float(R or 0.0), name=name)
+
+
+def built(function, *given, name):
+    """The Shape that a function of the library builds."""
+    how = np.empty(19)
+    particle = library.made(function, *given, results=[how])
+    try:
+        numbers = np.empty(5)
+        for i, what in enumerate(("rounding_radius", "sphericity", "shadow_radius", "bounding_radius")):
+            library.call(f"pp_particle_{what}", particle, numbers[i:i + 1])
+        planes = library.rows("pp_particle_planes", particle, 4)
+    finally:
+        library.free("pp_particle_free", particle)
+    r, k, shadow, bounding, _ = numbers.tolist()
+    how = how.tolist()
+    return Shape(planes=tuple(map(tuple, planes.tolist())), r=r, k=k, R=shadow, volume=how[7], sharp_volume=how[18],
+                 error=how[17], inertia=tuple(how[11:14]), centroid=tuple(how[:3]), orientation=tuple(how[3:7]),
+                 bounding_radius=bounding, name=name)
 
 
 def refuse_open(points, triangles):

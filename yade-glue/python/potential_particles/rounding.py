@@ -6,6 +6,7 @@ its
 faces: src/shapes/rounding.rs.
 """
 import functools
+import math
 import typing
 import warnings
 
@@ -36,6 +37,8 @@ class Rounding(typing.NamedTuple):
         if self.r is not None and self.share is not None:
             raise ValueError(f"rounding={self.share!r} and r={self.r!r} both give the rounding radius: leave out one")
         size, k = positive(size, "size, the diameter of the largest ball inside"), within(self.k, 0.0, 1.0, "k")
+        if k == 1.0:
+            raise ValueError("k=1 leaves no face: take sphere(R), which has that shape")
         R = None if self.R is None else positive(self.R, "R")
         if self.r is not None or R is not None:
             _warn_of_lengths()
@@ -51,6 +54,17 @@ class Rounding(typing.NamedTuple):
             raise ValueError(f"rounding={share:g} is a share of the size and must lie between 0 and 0.5 "
                              "(for a sphere use sphere(radius))")
         return size * share, k, R
+
+
+    def told_of(self, shape):
+        """The shape, with a SceneWarning if the shadow sphere of a given R cuts off a part of it."""
+        if self.R is not None and shape.k > 0.0 and shape.bounding_radius >= (1.0 - 1e-9) * shape.R / math.sqrt(shape.k):
+            from .check import SceneWarning
+            warnings.warn_explicit(
+                f"potential_particles: {shape.name}: R={self.R:g}: a sphere of radius R/sqrt(k)="
+                f"{shape.R / math.sqrt(shape.k):.6g} cuts off what lies beyond; leave R out, or take a larger one",
+                SceneWarning, "potential_particles", 0)
+        return shape
 
 
 @functools.lru_cache(maxsize=1)

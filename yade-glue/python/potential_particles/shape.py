@@ -50,6 +50,8 @@ class Shape:
     bounding_radius: float  #: of a ball about the centroid that holds the particle, length
     name: str = "particle"
     fit: typing.Optional[Fit] = None  #: of a shape from a surface
+    #: of what it was made of, the sharp body or the round one that was asked for, length^3
+    sharp_volume: typing.Optional[float] = None
 
     def __repr__(self):
         """One line; the planes and the rest are attributes."""
@@ -74,6 +76,7 @@ class Shape:
             r=self.r * factor, R=self.R * factor,
             volume=self.volume * factor**3, inertia=tuple(one * factor**5 for one in self.inertia),
             centroid=tuple(one * factor for one in self.centroid), bounding_radius=self.bounding_radius * factor,
+            sharp_volume=self.sharp_volume and self.sharp_volume * factor**3,
             fit=self.fit and self.fit._replace(volume=self.fit.volume * factor**3))
 
     def particle(self, **attributes):

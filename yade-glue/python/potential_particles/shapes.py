@@ -8,8 +8,8 @@ Every function returns a Shape. What `rounding`, `k`, `r` and `R` do: docs/shape
 
     rounding  0 to 0.5. How far edges and corners are rounded: r as a share of the *size* of the sharp shape, the
               diameter of the largest ball that fits in it; by default 0.05.
-    r         the same as a length, in its place. Faces stay where they are.
-    k         0 <= k <= 1. 0: flat faces; 1: a sphere of radius R; between, faces bulge by about r k/2.
+    r         the same as a length, in its place. Faces stay where they are, however many share a rounding.
+    k         0 <= k < 1. 0: flat faces; towards 1: a sphere of radius R; between, faces bulge by about r k/2.
     R         radius of the shadow sphere, a length; by default the distance from the centroid to the farthest corner.
 
 Bad input is a ValueError of one sentence, and nothing is made.
@@ -22,15 +22,15 @@ from . import fitting
 from .arguments import LARGE, MOST_PLANES, bearable, positive, rows, vector, whole, within
 from .convex_parts import clump_from_mesh
 from .mesh_file import from_mesh
-from .polyhedron import Polyhedron
+from .polyhedron import CAPSULE, CONE, CYLINDER, ELLIPSOID, SUPERQUADRIC, Polyhedron, round_shape
 from .random_rock import random_rock
 from .rounding import SPHERICITY, Rounding
 from .shape import Fit, Shape
 from .voxels import from_voxels, voxel_image
 
 __all__ = [
-    "Fit", "Shape", "clump_from_mesh", "cuboid", "cylinder", "from_mesh", "from_planes", "from_vertices", "from_voxels",
-    "platonic_solid", "prism", "random_rock", "sphere", "voxel_image"
+    "Fit", "Shape", "capsule", "clump_from_mesh", "cone", "cuboid", "cylinder", "ellipsoid", "from_mesh", "from_planes",
+    "from_vertices", "from_voxels", "platonic_solid", "prism", "random_rock", "sphere", "superquadric", "voxel_image"
 ]
 
 
@@ -67,7 +67,7 @@ def sphere(radius, name="sphere"):
     """A sphere about the origin: k = 1."""
     R = positive(radius, "radius")
     volume = 4.0 / 3.0 * math.pi * R**3
-    return Shape(planes=(), r=0.0, k=1.0, R=R, volume=volume, inertia=(0.4 * volume * R**2, ) * 3, error=0.0,
+    return Shape(planes=(), r=0.0, k=1.0, R=R, volume=volume, inertia=(0.4 * volume * R**2, ) * 3, error=0.0, sharp_volume=volume,
                  centroid=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), bounding_radius=R, name=name)
 
 
@@ -91,11 +91,42 @@ def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=None, k=SPH
     return _rounded(Polyhedron.prism(sides, radius, top, height), Rounding(rounding, k, r, R), name)
 
 
-def cylinder(radius=0.5, height=1.0, sides=32, rounding=None, k=SPHERICITY, R=None, name="cylinder", *, r=None):
-    """A cylinder along z as a prism of as many sides, whose section has the area pi radius^2."""
-    sides, radius = whole(sides, 3, MOST_PLANES - 2, "sides"), positive(radius, "radius")
-    inner = radius * math.sqrt(math.pi / (sides * math.tan(math.pi / sides)))
-    return prism(sides, inner, height, None, rounding, k, R, name, r=r)
+def cylinder(radius=0.5, height=1.0, sides=48, rounding=None, k=SPHERICITY, R=None, name="cylinder", *, r=None):
+    """A cylinder along z as a prism of as many sides, whose section, rounded as it is, has the area pi radius^2."""
+    radius, height = _lengths(radius, height)
+    return _round(CYLINDER, (radius, height), sides, min(2.0 * radius, height), Rounding(rounding, k, r, R), name)
+
+
+def cone(radius=0.5, height=1.0, sides=48, rounding=None, k=SPHERICITY, R=None, name="cone", *, r=None):
+    """A cone along z from -height/2 to its tip at height/2, as a pyramid of as many sides whose base has the area pi
+    radius^2.
+
+    Without rounding and r, r is so small that base and height lose no more than 0.1 % of them.
+    """
+    radius, height = _lengths(radius, height)
+    size = 2.0 * radius * height / (radius + math.hypot(radius, height))
+    return _round(CONE, (radius, height), sides, size, Rounding(rounding, k, r, R), name)
+
+
+def ellipsoid(axes=(1.0, 0.8, 0.6), name="ellipsoid"):
+    """An ellipsoid about the origin with these semi-axes along x, y, z: exact, of 6 planes through its centre."""
+    return round_shape(ELLIPSOID, [positive(axis, "axes") for axis in vector(axes, "axes")], name)
+
+
+def capsule(radius=0.5, length=1.0, name="capsule"):
+    """All points within `radius` of a segment of this length along z, about the origin: exact, of 6 planes."""
+    return round_shape(CAPSULE, (positive(radius, "radius"), positive(length, "length")), name)
+
+
+def superquadric(axes, exponents, planes=48, rounding=None, k=SPHERICITY, R=None, name="superquadric", *, r=None):
+    """A superquadric about the origin, (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, with its volume.
+
+    axes: a, b, c; exponents: n, e from 0.1, nearly a box, over 1, an ellipsoid, to 2, an octahedron; planes: at most so
+    many. Without rounding and r, r is what comes nearest.
+    """
+    axes = [positive(axis, "axes") for axis in vector(axes, "axes")]
+    n, e = (within(one, 0.1, 2.0, "exponents") for one in exponents)
+    return _round(SUPERQUADRIC, (*axes, n, e), planes, 2.0 * min(axes), Rounding(rounding, k, r, R), name)
 
 
 def platonic_solid(faces, edge=1.0, rounding=None, k=SPHERICITY, R=None, name=None, *, r=None):
@@ -105,4 +136,15 @@ def platonic_solid(faces, edge=1.0, rounding=None, k=SPHERICITY, R=None, name=No
 
 
 def _rounded(polyhedron, rounding, name):
-    return polyhedron.rounded(*rounding.lengths(polyhedron.size), name)
+    return rounding.told_of(polyhedron.rounded(*rounding.lengths(polyhedron.size), name))
+
+
+def _round(form, sizes, planes, size, rounding, name):
+    """`size`: that of the sharp shape, of which rounding is a share."""
+    planes = whole(planes, 3, MOST_PLANES - 2, "planes" if form == SUPERQUADRIC else "sides")
+    r, k, R = rounding.lengths(size)
+    return rounding.told_of(round_shape(form, sizes, name, planes, (r if rounding.is_chosen else None, k, R)))
+
+
+def _lengths(radius, height):
+    return positive(radius, "radius"), positive(height, "height")

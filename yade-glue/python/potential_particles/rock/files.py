@@ -13,7 +13,7 @@ def read_dfn(file):
     """Joints as discs from a table of the columns x, y, z of the centre, dip, dip direction and radius; a list of
     Joint.
 
-    Separated by commas or semicolons, in degrees and the script's unit; a first line without any number is passed over
+    Separated by commas, semicolons or blanks, in degrees and the script's unit; a first line without any number is passed over
     as names, and so are empty lines and those that begin with #. A radius of inf is a joint without end. ValueError
     with file, line and value for what is no such table.
     """
@@ -106,7 +106,9 @@ def _rows(file, width, meaning, exactly=True):
             line = line.split("#")[0].strip()
             if not line:
                 continue
-            words = [word.strip() for word in line.split(";" if ";" in line else ",")]
+            # Blanks separate where nothing else does.
+            separator = ";" if ";" in line else "," if "," in line else None
+            words = [word.strip() for word in line.split(separator)]
             # BlockGen's lines end with a separator.
             while words and not words[-1]:
                 words.pop()

@@ -45,7 +45,7 @@ class Block:
 class RockMass:
     """Blocks and their faces as numpy arrays, one row each; mass[i] is a Block, len(mass) their number.
 
-    blocks: volume, centroid, inertia (xx, yy, zz, xy, xz, yz for density 1), parent, region (-1: none) ...
+    blocks: volume, centroid, inertia (xx, yy, zz, xy, yz, zx for density 1), parent, region (-1: none) ...
     faces: block, area, jointed_area (within the true extent of the joint, a disc or polygon; what else of the face was
     rock), plane (unit outward normal, offset), `of` (0: a plane of the domain, 1: a joint, 2: a plane of a region),
     index (of that plane or joint), region (of slice(); 2**32 - 1 for what the domain leaves out) ...
@@ -78,10 +78,10 @@ class RockMass:
         row = self.blocks[number]
         number = int(number) % len(self)
         faces = np.arange(row["first_face"], row["first_face"] + row["face_count"]).astype(int)
-        xx, yy, zz, xy, xz, yz = row["inertia"]
+        xx, yy, zz, xy, yz, zx = row["inertia"]
         corners = np.concatenate([self.outline(face) for face in faces])
         return Block(number, float(row["volume"]), row["centroid"],
-                     np.array([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]]), self.faces["plane"][faces],
+                     np.array([[xx, xy, zx], [xy, yy, yz], [zx, yz, zz]]), self.faces["plane"][faces],
                      np.unique(corners, axis=0), faces)
 
     @property

@@ -1,0 +1,281 @@
+//! Few planes for points or surfaces of many, as scans are.
+//!
+//! The facets of the convex hull are gathered into N groups of like direction, by Lloyd's method on their normals with
+//! their areas as weights (the metric L2,1 of Cohen-Steiner, Alliez & Desbrun 2004, Variational shape approximation).
+//! From planes with the mean direction of each group the fit begins: directions and offsets change until the heights of
+//! the particle, along directions all around, are those of the hull, in the least squares (Levenberg and Marquardt). A
+//! plane raises the height at a point x by its weight there (`touching`) times what it moves there, n·x − d. Of several
+//! r the one that comes nearest is taken, and the whole is scaled to the volume that is given.
+
+use super::error::{ShapeError, within};
+use super::rounding::{Definition, Rounding, Shape, lowered, usual_tolerance};
+use super::sharp_body::SharpBody;
+use super::touching::{Height, Reached, reached};
+use crate::particle::plane::Plane;
+use nalgebra::{DMatrix, DVector, Vector3};
+use std::f64::consts::{PI, TAU};
+
+/// Of the size: the r that are tried. Below, overlaps would have to be tiny; beyond, nothing gets rounder.
+const SHARES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.45];
+
+/// Planes beyond which they do not turn: so many touch the hull all around.
+const MOST_TURNED: usize = 100;
+
+/// Most planes.
+const MOST_PLANES: usize = 1_000;
+
+/// Directions along which the height of the hull is to be reached.
+const SAMPLES: usize = 400;
+
+/// Steps of a fit; it ends with one that leaves more than this share of what is missing.
+const STEPS: usize = 25;
+const ENOUGH: f64 = 0.98;
+
+/// What is added to the diagonal of the normal equations at first, as a share of its mean.
+const DAMPING: f64 = 1e-3;
+
+/// Most rounds of Lloyd's method, and how near to each other normals of two rounds are in the end.
+const ROUNDS: usize = 15;
+const SETTLED: f64 = 1e-6;
+
+/// The square of the distance of normals that are one.
+const ONE_NORMAL: f64 = 1e-12;
+
+/// Points over the surface of a superquadric.
+const POINTS: usize = 2_000;
+
+/// Of the convex hull of points, as a particle of at most so many planes and with the volume of the hull. Without r in
+/// `rounding` ([`Rounding::chosen`]), it is chosen to that end.
+///
+/// # Errors
+/// Those of [`hull`](super::hull); fewer planes than four.
+pub fn fitted(points: &[[f64; 3]], planes: usize, rounding: &Rounding) -> Result<Shape, ShapeError> {
+    let body = SharpBody::of_points(points, 0.0)?;
+    of_hull(&body, body.volume, planes, rounding, None)
+}
+
+/// A superquadric about the origin, (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) ≤ 1 with the semi-axes a, b, c and
+/// the exponents n and e, from 0.1, nearly a box, over 1, an ellipsoid, to 2, an octahedron: as [`fitted`] to points on
+/// it.
+///
+/// # Errors
+/// Those of [`fitted`]; semi-axes and exponents out of range.
+pub fn superquadric(axes: [f64; 3], [n, e]: [f64; 2], planes: usize, rounding: &Rounding) -> Result<Shape, ShapeError> {
+    for (axis, name) in axes.into_iter().zip(["semi-axis x", "semi-axis y", "semi-axis z"]) {
+        super::error::positive(axis, name)?;
+    }
+    for (exponent, name) in [(n, "exponent n"), (e, "exponent e")] {
+        within(exponent, (0.1..=2.0).contains(&exponent), name, "between 0.1 and 2")?;
+    }
+    let scales = rays(POINTS).map(|ray| {
+        let across = ray.x.abs().powf(2.0 / e) + ray.y.abs().powf(2.0 / e);
+        (across.powf(e / n) + ray.z.abs().powf(2.0 / n)).powf(-0.5 * n) * ray
+    });
+    let points: Vec<[f64; 3]> = scales.map(|at| at.component_mul(&Vector3::from(axes)).into()).collect();
+    let volume = axes.iter().product::<f64>() * volume_of(n, e);
+    let body = SharpBody::of_points(&points, 0.0)?;
+    of_hull(&body, volume, planes, rounding, None)
+}
+
+/// The volume with semi-axes 1: 2 n e B(n/2 + 1, n) B(e/2, e/2), B Euler's beta function.
+fn volume_of(n: f64, e: f64) -> f64 {
+    let beta = |a: f64, b: f64| (ln_gamma(a) + ln_gamma(b) - ln_gamma(a + b)).exp();
+    2.0 * n * e * beta(0.5 * n + 1.0, n) * beta(0.5 * e, 0.5 * e)
+}
+
+/// ln Γ(x), by Stirling's series beyond 30, to which Γ(x + 1) = x Γ(x) leads.
+fn ln_gamma(x: f64) -> f64 {
+    if x < 30.0 {
+        return ln_gamma(x + 1.0) - x.ln();
+    }
+    let series = (1.0 / 12.0 - (1.0 / 360.0 - 1.0 / (1260.0 * x * x)) / (x * x)) / x;
+    (x - 0.5) * x.ln() - x + 0.5 * TAU.ln() + series
+}
+
+/// A hull with fewer planes, and this volume.
+pub(crate) fn of_hull(
+    hull: &SharpBody,
+    volume: f64,
+    planes: usize,
+    rounding: &Rounding,
+    tolerance: Option<f64>,
+) -> Result<Shape, ShapeError> {
+    within(planes as f64, (4..=MOST_PLANES).contains(&planes), "planes", "between 4 and 1000")?;
+    within(volume, volume > 0.0, "volume", "finite and above 0")?;
+    let about: Vec<Vector3<f64>> = hull.corners.iter().map(|corner| corner - hull.centroid).collect();
+    let support = |normal: Vector3<f64>| Plane {
+        normal,
+        offset: about.iter().map(|at| normal.dot(at)).fold(f64::NEG_INFINITY, f64::max),
+    };
+    let supports: Vec<Plane> = directions(hull, planes).into_iter().map(support).collect();
+    let outer = SharpBody::of_planes(&supports)?;
+    let outer = SharpBody { origin: hull.centroid + hull.origin, ..outer };
+    let samples =
+        rays(SAMPLES).chain(outer.planes.iter().map(|plane| plane.normal)).map(|ray| (ray, support(ray).offset));
+    let centre = outer.centroid;
+    let samples: Vec<Height> = samples.map(|(ray, height)| (ray, height - ray.dot(&centre))).collect();
+    let shape = if outer.planes.len() > MOST_TURNED {
+        let shape = Shape::of_body(&SharpBody { origin: Vector3::zeros(), ..outer }, rounding, tolerance)?;
+        Shape { centroid: shape.centroid + hull.centroid + hull.origin, ..shape }
+    } else {
+        nearest(&outer, &samples, rounding, tolerance)?
+    };
+    let factor = (volume / shape.mass.volume).cbrt();
+    Ok(Shape { sharp_volume: volume, ..shape.resized(factor)? })
+}
+
+/// The shape of the faces of a body that comes nearest to heights above its centroid.
+fn nearest(
+    outer: &SharpBody,
+    samples: &[Height],
+    rounding: &Rounding,
+    tolerance: Option<f64>,
+) -> Result<Shape, ShapeError> {
+    let centre = outer.centroid;
+    let size = outer.size()?;
+    let shares = if rounding.is_chosen() { &SHARES[..] } else { &[f64::NAN] };
+    let mut best: Option<Fit> = None;
+    for share in shares {
+        let rounding = if share.is_nan() { *rounding } else { rounding.with_radius(share * size) };
+        let (r, k, shadow_radius) = rounding.lengths(size)?;
+        let shadow_radius = shadow_radius.unwrap_or_else(|| outer.farthest(&centre));
+        let planes = lowered(&outer.heights(&centre), r, k, shadow_radius);
+        let fit = Fit::of(Definition { planes, r, k, shadow_radius }, samples)?;
+        if best.as_ref().is_none_or(|best| fit.missing < best.missing) {
+            best = Some(fit);
+        }
+    }
+    let Some(Fit { definition: found, .. }) = best else { return Err(ShapeError::Empty) };
+    let moved = |to: &Vector3<f64>| {
+        let shifted = |plane: &Plane| Plane { offset: plane.offset - plane.normal.dot(&(to - centre)), ..*plane };
+        Definition { planes: found.planes.iter().map(shifted).collect(), ..found }
+    };
+    let tolerance = tolerance.unwrap_or_else(|| usual_tolerance(found.planes.len()));
+    let shape = Shape::settled(moved, centre, size, tolerance)?;
+    Ok(Shape { centroid: shape.centroid + outer.origin, ..shape })
+}
+
+/// Planes, and the root of the mean square of what is missing to the heights.
+struct Fit {
+    definition: Definition,
+    missing: f64,
+}
+
+impl Fit {
+    fn of(mut definition: Definition, samples: &[Height]) -> Result<Self, ShapeError> {
+        let mut points: Vec<Vector3<f64>> = samples.iter().map(|(ray, height)| *height * ray).collect();
+        let extent = samples.iter().map(|(_, height)| *height).fold(0.0, f64::max);
+        let mut looked = |definition: &Definition| {
+            let particle = definition.particle().ok()?;
+            let found = reached(&particle, samples, &mut points)?;
+            let square: f64 = found.iter().map(|one| one.missing * one.missing).sum();
+            (particle.plane_count() == definition.planes.len())
+                .then_some((found, (square / samples.len() as f64).sqrt()))
+        };
+        let Some((mut here, mut missing)) = looked(&definition) else {
+            return Ok(Self { missing: f64::INFINITY, definition });
+        };
+        let mut damping = DAMPING;
+        for _ in 0..STEPS {
+            let planes = stepped(&definition.planes, &here, damping, extent);
+            let tried = Definition { planes, ..definition };
+            match looked(&tried).filter(|(_, left)| *left < missing) {
+                Some((there, left)) => {
+                    let is_little = left > ENOUGH * missing;
+                    (definition, here, missing, damping) = (tried, there, left, 0.3 * damping);
+                    if is_little {
+                        break;
+                    }
+                }
+                None => damping *= 10.0,
+            }
+        }
+        Ok(Self { definition, missing })
+    }
+}
+
+/// Planes that moved and turned by one step towards the least sum of squares.
+fn stepped(planes: &[Plane], reached: &[Reached], damping: f64, extent: f64) -> Vec<Plane> {
+    let across = |normal: &Vector3<f64>| {
+        let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
+        [first, normal.cross(&first)].map(|axis| extent * axis)
+    };
+    let axes: Vec<_> = planes.iter().map(|plane| across(&plane.normal)).collect();
+    let count = 3 * planes.len();
+    let (mut matrix, mut right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
+    for Reached { at, missing, weights } in reached {
+        // Outwards, and turned so that it recedes at x by x·e over the extent: about the foot of its own height.
+        let rates = weights.iter().flat_map(|&(i, weight)| {
+            let from_foot = (at - planes[i].offset * planes[i].normal) / (extent * extent);
+            let [first, second] = axes[i].map(|axis| -weight * axis.dot(&from_foot));
+            [(3 * i, weight), (3 * i + 1, first), (3 * i + 2, second)]
+        });
+        let rates: Vec<(usize, f64)> = rates.collect();
+        for &(i, rate) in &rates {
+            right[i] += rate * missing;
+            rates.iter().for_each(|&(j, other)| matrix[(i, j)] += rate * other);
+        }
+    }
+    let added = damping * matrix.trace() / count as f64;
+    (0..count).for_each(|i| matrix[(i, i)] += added);
+    let Some(factor) = matrix.cholesky() else { return planes.into() };
+    let change = factor.solve(&right);
+    let moved = |(i, (plane, [first, second])): (usize, (&Plane, &[Vector3<f64>; 2]))| {
+        let turn = (change[3 * i + 1] * first + change[3 * i + 2] * second) / (extent * extent);
+        Plane { normal: (plane.normal + turn).normalize(), offset: plane.offset + change[3 * i] }
+    };
+    planes.iter().zip(&axes).enumerate().map(moved).collect()
+}
+
+/// At most so many unit normals for the facets of a hull.
+fn directions(hull: &SharpBody, count: usize) -> Vec<Vector3<f64>> {
+    let facets: Vec<(Vector3<f64>, f64)> = hull
+        .triangles
+        .iter()
+        .map(|triangle| triangle.map(|corner| hull.corners[corner as usize]))
+        .map(|[a, b, c]| (b - a).cross(&(c - a)))
+        .filter_map(|doubled| Some((doubled.try_normalize(0.0)?, doubled.norm())))
+        .collect();
+    let largest = |of: &dyn Fn(usize) -> f64| (0..facets.len()).max_by(|&i, &j| of(i).total_cmp(&of(j))).unwrap_or(0);
+    // The first ones by area times distance from those that there are.
+    let mut normals = vec![facets[largest(&|i| facets[i].1)].0];
+    let mut distances = vec![f64::INFINITY; facets.len()];
+    loop {
+        for (distance, (normal, _)) in distances.iter_mut().zip(&facets) {
+            *distance = distance.min((normal - normals[normals.len() - 1]).norm_squared());
+        }
+        let worst = largest(&|i| facets[i].1 * distances[i]);
+        if normals.len() == count || distances[worst] < ONE_NORMAL {
+            break;
+        }
+        normals.push(facets[worst].0);
+    }
+    for _ in 0..ROUNDS {
+        let mut sums = vec![Vector3::zeros(); normals.len()];
+        for (normal, area) in &facets {
+            let cosine = |i: usize| normal.dot(&normals[i]);
+            let group = (0..normals.len()).max_by(|&i, &j| cosine(i).total_cmp(&cosine(j))).unwrap_or(0);
+            sums[group] += *area * normal;
+        }
+        let mut change: f64 = 0.0;
+        for (normal, sum) in normals.iter_mut().zip(&sums) {
+            let mean = sum.try_normalize(0.0).unwrap_or(*normal);
+            change = change.max((mean - *normal).amax());
+            *normal = mean;
+        }
+        if change < SETTLED {
+            break;
+        }
+    }
+    normals
+}
+
+/// Unit vectors spread evenly: Fibonacci's spiral.
+fn rays(count: usize) -> impl Iterator<Item = Vector3<f64>> {
+    (0..count).map(move |i| {
+        let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+        let (sin, cos) = (PI * (3.0 - 5f64.sqrt()) * i as f64).sin_cos();
+        let across = (1.0 - z * z).sqrt();
+        Vector3::new(across * cos, across * sin, z)
+    })
+}
