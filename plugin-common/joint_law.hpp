@@ -13,11 +13,15 @@ namespace potential_particles {
 // A joint in one step: step(), or a repetition of the last one.
 class JointLaw {
 public:
-    JointLaw(const JointParameters& joint, JointMemory& memory, const JointBody& one, const JointBody& other, double dt)
+    // sides: what else its bodies held in the last step. Where a body that moves has none known, which is so in the
+    // first step of a joint, no dashpot acts.
+    JointLaw(const JointParameters& joint, JointMemory& memory, const JointBody& one, const JointBody& other,
+             const JointSides& sides, double dt)
         : joint(joint)
         , memory(memory)
         , one(one)
         , other(other)
+        , sides(sides)
         , dt(dt)
     {
     }
@@ -74,13 +78,24 @@ private:
     void takeStiffness(const ContactPatch& patch);
     void pushAsBond(const BondStrain& strain, const Wrench& damping);
     void push();
-    double dashpotPerArea(double stiffness, double mobility, double area) const;
+    // How the bodies as a whole oppose this joint in a direction: the mobilities of both at the centres of all that they
+    // press on that side, each times the share of all that over this joint; nothing where a share is not known.
+    struct Opposed {
+        double one = 0, other = 0;
+        double both() const { return one + other; }
+    };
+    Opposed opposedAt(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
+    double dashpotPerArea(double stiffness, double opposed, double area) const;
+    struct Region;
+    Region regionOf(const ContactPatch& patch, const Opposed& opposed) const;
+    void remember(const ContactPatch& patch, const JointMotion& motion);
     double energyAlong(const Springs& springs) const;
     double turning(const Eigen::Vector3d& normal) const { return (other.spin - one.spin).dot(normal); }
 
     const JointParameters& joint;
     JointMemory& memory;
     const JointBody &one, &other;
+    const JointSides& sides;
     const double dt;
     bool bondEnded = false; // in this step: its springs along the joint are now those of the patch
     JointForces all;

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // What a joint bears: Mohr-Coulomb with cohesion, a tensile strength, and residual values once it has broken. Slip and
-// twist together: the ellipse (F/F_max)^2 + (M/M_max)^2 <= 1, which encloses the limit surface of an even pressure.
+// twist together: the ellipse (F/F_max)^2 + (M/(f M_max))^2 <= 1, where f makes the work of the slip that of Coulomb's
+// friction at each point of the patch.
 #pragma once
 
 #include "contact_patch.hpp"
@@ -51,6 +52,56 @@ inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& l
     }
     const double size = std::hypot(p, q);
     return { p / size * limit.shear, q / size * limit.twist };
+}
+
+// f of the ellipse. Where the patch slips by v and turns by w, friction takes the mean of |v + w x y| over its points y
+// about the centre of pressure; the ellipse takes sqrt(v^2 + (f l w)^2), l the twist lever, which is right with f = 1
+// where it turns in place. The points: two ellipses with the shape of the second moments, so that the mean of |y| is l
+// and that of |y|^2 is J/A. v and w follow from the trial, normal to the ellipse with f. shear: its direction.
+inline double shareOfTwist(const FrictionForce& trial, const FrictionForce& limit, const ContactPatch& patch,
+                           const Eigen::Vector3d& shear)
+{
+    const double f = trial.shear / limit.shear, m = trial.twist / limit.twist, lever = patch.twistLever;
+    // A convex limit through both axes holds this.
+    if (!(f > 0 && m > 0 && f + m > 1 && lever > 0 && std::isfinite(f) && std::isfinite(m)))
+        return 1;
+    // Axes along the slip and across it.
+    const Eigen::Vector3d along = shear.normalized();
+    const double whole = patch.secondMoment.trace(), a = along.dot(patch.secondMoment * along) / whole, c = 1 - a;
+    if (!(whole > 0))
+        return 1;
+    // The sign of the product of inertia does not matter: the rings are symmetric.
+    const double square = (patch.secondMoment * along).squaredNorm() / (whole * whole) - a * a;
+    const double b = std::sqrt(std::max(0.0, square)), root = std::sqrt(std::max(0.0, a * c - b * b));
+    const double size = std::sqrt(1 + 2 * root) / M_SQRT2; // of the root of twice the matrix (a, b; b, c)
+    const double xx = (a + root) / size, xy = b / size, yy = (c + root) / size;
+    constexpr int points = 4; // of half a ring, at odd multiples of 22.5 degrees
+    constexpr double cosines[points] = { 0.92387953251128674, 0.38268343236508977, -0.38268343236508977,
+                                         -0.92387953251128674 };
+    constexpr double sines[points] = { 0.38268343236508977, 0.92387953251128674, 0.92387953251128674,
+                                       0.38268343236508977 };
+    double x[points], y[points], mean = 0;
+    for (int i = 0; i < points; ++i) {
+        x[i] = xx * cosines[i] + xy * sines[i];
+        y[i] = xy * cosines[i] + yy * sines[i];
+        mean += std::hypot(x[i], y[i]) / points;
+    }
+    const double middle = 1 / mean; // of both rings, in levers
+    const double off = std::sqrt(std::max(0.0, patch.polarMoment / (patch.area * lever * lever) - middle * middle));
+    double share = 1;
+    for (int turn = 0; turn < 3; ++turn) {
+        const double v = std::min(30.0, f / m * share * share); // in levers times w
+        double work = 0;
+        for (const double ring : { middle - off, middle + off })
+            for (int i = 0; i < points; ++i) {
+                const double across = ring * x[i], turned = ring * y[i];
+                work += std::sqrt((v - turned) * (v - turned) + across * across)
+                    + std::sqrt((v + turned) * (v + turned) + across * across);
+            }
+        work /= 4 * points;
+        share = std::sqrt(std::clamp(work * work - v * v, 0.0, 1.0));
+    }
+    return share;
 }
 
 // Largest shear force and twist of a patch that is pressed by that force: c A + mu N, and c L + mu N lambda. L, the
