@@ -351,9 +351,8 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
     const FrictionForce trial { all.shearStiffness * shear.norm(), all.twistStiffness * std::abs(twist) };
     const double trialEnergy = energyAlong(springs);
     const auto limitNow = [&] { return limitOf(joint, memory.broken, patch, std::max(0.0, pressing)); };
-    const auto held = [&](FrictionForce& limit) {
-        limit.twist *= shareOfTwist(trial, limit, patch, shear);
-        return returned(trial, limit, all.shearStiffness, all.twistStiffness);
+    const auto held = [&](const FrictionForce& limit) {
+        return returned(trial, limit, patch, shear, all.shearStiffness, all.twistStiffness);
     };
     FrictionForce limit = limitNow(), left = held(limit);
     all.slides = left.shear < trial.shear || left.twist < trial.twist;

@@ -6,7 +6,8 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <vector>
+#include <array>
+#include <cstddef>
 
 namespace potential_particles {
 
@@ -57,7 +58,8 @@ struct JointSides {
     JointSide one, other; // of body 1, of body 2
 };
 
-// All joints of a body. Those of one normal, as of the tiles of a face, are added up.
+// All joints of a body. Those of one normal, as of the tiles of a face, are added up; of a body with many faces, the later
+// ones with that of the nearest normal.
 class JointsOfBody {
 public:
     // outwards: the normal of the load points away from the body.
@@ -65,17 +67,15 @@ public:
     {
         if (!(load.heldStiffness > 0))
             return;
-        if (faces.empty())
+        if (count == 0)
             origin = load.heldPoint;
         const Sum one = sumOf(load);
         const Eigen::Vector3d normal = outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal);
-        const auto same = std::find_if(faces.begin(), faces.end(),
-                                       [&](const Face& face) { return face.normal.dot(normal) > 1 - sameNormal; });
-        if (same == faces.end()) {
-            faces.push_back({ normal, one });
-            return;
-        }
-        same->sum += one;
+        Face* const face = faceOf(normal);
+        if (count == 0 || (count < most && face->normal.dot(normal) < 1 - sameNormal))
+            faces[static_cast<std::size_t>(count++)] = { normal, one };
+        else
+            face->sum += one;
     }
 
     // What is left without this one, which has been added.
@@ -88,17 +88,16 @@ public:
         const Sum own = sumOf(load);
         const Eigen::Vector3d normal = outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal);
         Sum rest;
-        bool taken = false;
-        for (const Face& face : faces) {
-            const double cosine = face.normal.dot(normal);
+        const Face* const mine = faceOf(normal);
+        for (const Face* face = faces.data(); face != faces.data() + count; ++face) {
+            const double cosine = face->normal.dot(normal);
             if (!(cosine > 0))
                 continue;
-            Sum sum = face.sum;
-            if (!taken && cosine > 1 - sameNormal) {
-                taken = true;
+            Sum sum = face->sum;
+            if (face == mine) {
                 if (sum.count == 1) // it is this one
                     continue;
-                sum.subtract(own);
+                sum.add(-1, own);
             }
             rest.add(std::min(1.0, cosine * cosine), sum);
         }
@@ -114,16 +113,30 @@ public:
         return side;
     }
 
-    void clear() { faces.clear(); }
+    void clear() { count = 0; }
+    bool isOne() const { return count == 0 || (count == 1 && faces[0].sum.count == 1); }
+
+    // As numbers, for another process.
+    static constexpr int numbers = 1 + 3 + 6 * 21;
+    void write(double* to)
+    {
+        *to++ = count;
+        each([&](double& number) { *to++ = number; });
+    }
+    void read(const double* from)
+    {
+        count = static_cast<int>(*from++);
+        each([&](double& number) { number = *from++; });
+    }
 
 private:
+    static constexpr int most = 6;
     static constexpr double sameNormal = 1e-8; // 1 - cosine
     static constexpr double rounding = 1e-12; // of what is left of a difference
 
     // About `origin`.
     struct Sum {
-        double stiffness = 0, force = 0;
-        int count = 0;
+        double stiffness = 0, force = 0, count = 0;
         Eigen::Vector3d first = Eigen::Vector3d::Zero(), pressed = Eigen::Vector3d::Zero();
         Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
 
@@ -140,7 +153,6 @@ private:
             add(1, other);
             count += other.count;
         }
-        void subtract(const Sum& other) { add(-1, other); }
     };
     struct Face {
         Eigen::Vector3d normal;
@@ -158,7 +170,34 @@ private:
                  load.heldStiffness * (load.spread() + centroid * centroid.transpose()) };
     }
 
-    std::vector<Face> faces;
+    // The face that a joint with this normal is of: the one with the nearest normal; none, before there is one.
+    Face* faceOf(const Eigen::Vector3d& normal)
+    {
+        return const_cast<Face*>(static_cast<const JointsOfBody&>(*this).faceOf(normal));
+    }
+    const Face* faceOf(const Eigen::Vector3d& normal) const
+    {
+        return std::max_element(faces.data(), faces.data() + count, [&](const Face& one, const Face& other) {
+            return one.normal.dot(normal) < other.normal.dot(normal);
+        });
+    }
+    template <class Visit> void each(Visit&& visit)
+    {
+        const auto all = [&](auto& values) { std::for_each(values.data(), values.data() + values.size(), visit); };
+        all(origin);
+        for (int i = 0; i < count; ++i) {
+            Face& face = faces[static_cast<std::size_t>(i)];
+            for (double* number : { &face.sum.stiffness, &face.sum.force, &face.sum.count })
+                visit(*number);
+            all(face.normal);
+            all(face.sum.first);
+            all(face.sum.pressed);
+            all(face.sum.second);
+        }
+    }
+
+    std::array<Face, most> faces;
+    int count = 0;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // What a joint bears: Mohr-Coulomb with cohesion, a tensile strength, and residual values once it has broken. Slip and
-// twist together: the ellipse (F/F_max)^2 + (M/(f M_max))^2 <= 1, where f makes the work of the slip that of Coulomb's
-// friction at each point of the patch.
+// twist together: Coulomb's friction at points spread over the patch, so that a patch cut into parts bears the same.
 #pragma once
 
 #include "contact_patch.hpp"
@@ -17,7 +16,8 @@ struct FrictionForce {
     double shear, twist; // sizes of the tangential force and of the moment about the normal
 };
 
-// By how much a force must be scaled to be within the ellipse; 1 for one that is.
+// By how much a force must be scaled to be within the ellipse of both limits, which encloses what the patch bears; 1 for
+// one that is.
 inline double allowedShare(const FrictionForce& force, const FrictionForce& limit)
 {
     const auto over = [](double part, double whole) { return part > 0 ? part / whole : 0; };
@@ -25,83 +25,103 @@ inline double allowedShare(const FrictionForce& force, const FrictionForce& limi
     return size > 1 ? 1 / size : 1;
 }
 
+// Where on a patch friction acts: on 16 points of two ellipses about the centre of pressure, with the shape of the second
+// moments of the patch, so that the mean of |y| is the lever of the twist and that of |y|^2 is J/A. Lengths in levers, axes
+// along the slip and across it.
+class FrictionPoints {
+public:
+    FrictionPoints(const ContactPatch& patch, const Eigen::Vector3d& slip, double lever)
+    {
+        const double whole = patch.secondMoment.trace(), length = slip.norm();
+        double along = 0.5, both = 0; // of the matrix of second moments, of trace 1
+        if (whole > 0 && length > 0) {
+            const Eigen::Vector3d moved = patch.secondMoment * slip / (whole * length);
+            along = moved.dot(slip) / length;
+            // Its sign does not count: the points come in pairs.
+            both = std::sqrt(std::max(0.0, moved.squaredNorm() - along * along));
+        }
+        const double across = 1 - along, root = std::sqrt(std::max(0.0, along * across - both * both));
+        double mean = 0;
+        for (int i = 0; i < count; ++i) {
+            x[i] = (along + root) * cosines[i] + both * sines[i];
+            y[i] = both * cosines[i] + (across + root) * sines[i];
+            mean += std::hypot(x[i], y[i]) / count;
+        }
+        // The matrix's root is (it + root)/size; size is 1 for points whose mean |y|^2 is 1/2.
+        const double size = std::sqrt(1 + 2 * root), middle = 1 / mean;
+        const double square = patch.polarMoment / (patch.area * lever * lever) * 2 / (size * size);
+        const double off = std::sqrt(std::max(0.0, square - middle * middle));
+        rings[0] = middle - off;
+        rings[1] = middle + off;
+    }
+
+    // Force over the largest one and moment over the largest one while the patch slips by v and turns by w. Its limit
+    // surface: these are the derivatives of the work, which is convex.
+    FrictionForce at(double v, double w) const
+    {
+        FrictionForce sum { 0, 0 };
+        for (const double ring : rings)
+            for (int i = 0; i < count; ++i)
+                for (const double sign : { ring, -ring }) {
+                    const double px = sign * x[i], py = sign * y[i], vx = v - w * py, vy = w * px;
+                    const double speed = std::sqrt(vx * vx + vy * vy);
+                    if (!(speed > 0))
+                        continue;
+                    sum.shear += vx / speed;
+                    sum.twist += (px * vy - py * vx) / speed;
+                }
+        return { sum.shear / (4 * count), sum.twist / (4 * count) };
+    }
+
+private:
+    static constexpr int count = 4; // on half an ellipse, at odd multiples of 22.5 degrees
+    static constexpr double cosines[count] = { 0.92387953251128674, 0.38268343236508977, -0.38268343236508977,
+                                               -0.92387953251128674 };
+    static constexpr double sines[count] = { 0.38268343236508977, 0.92387953251128674, 0.92387953251128674,
+                                             0.38268343236508977 };
+    double x[count], y[count], rings[2];
+};
+
 // The admissible force nearest to the trial in the energy of the springs, F^2/shearStiffness + M^2/twistStiffness: slip
-// is then normal to the ellipse, and its work is never negative. A trial within the ellipse is returned as it is.
-inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& limit, double shearStiffness,
-                              double twistStiffness)
+// is then normal to the limit surface, and its work is never negative. A trial within the limit is returned as it is.
+inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& limit, const ContactPatch& patch,
+                              const Eigen::Vector3d& slip, double shearStiffness, double twistStiffness)
 {
     if (!(limit.shear > 0))
         return { 0, 0 };
     if (!(limit.twist > 0 && twistStiffness > 0))
         return { std::min(trial.shear, limit.shear), 0 };
-    const double x = trial.shear / limit.shear, y = trial.twist / limit.twist;
-    if (x * x + y * y <= 1)
+    const double f = trial.shear / limit.shear, m = trial.twist / limit.twist;
+    if (f + m <= 1) // the limit is convex
         return trial;
-    // In x and y: minimise a (x' - x)^2 + b (y' - y)^2 on the unit circle. x' = x/(1 + t/a), y' = y/(1 + t/b); the left
-    // side of x'^2 + y'^2 = 1 falls with t and is convex, so that Newton's method from t = 0 stays below the root and
-    // converges.
-    const double a = limit.shear * limit.shear / shearStiffness, b = limit.twist * limit.twist / twistStiffness;
-    double t = 0, p = x, q = y;
-    for (int i = 0; i < 60; ++i) {
-        p = x / (1 + t / a);
-        q = y / (1 + t / b);
-        const double excess = p * p + q * q - 1;
-        if (excess <= 1e-15)
+    if (!(f > 0 && m > 0))
+        return { std::min(trial.shear, limit.shear), std::min(trial.twist, limit.twist) };
+    // Of the slip, v = lever sin(a), w = cos(a), across what the force must lose: falls through 0 once, at the answer.
+    const double lever = limit.twist / limit.shear, ratio = lever * lever * shearStiffness / twistStiffness;
+    const FrictionPoints points(patch, slip, lever);
+    FrictionForce on {};
+    const auto across = [&](double a) {
+        on = points.at(std::sin(a), std::cos(a));
+        return std::cos(a) * (f - on.shear) - std::sin(a) * ratio * (m - on.twist);
+    };
+    double low = 0, high = 0.5 * M_PI, atLow = f, atHigh = -ratio * m, a = std::atan2(f, m);
+    constexpr double enough = 1e-6; // of the direction; the force is on the limit whatever it is
+    int side = 0;
+    for (int i = 0; i < 20; ++i) {
+        const double found = across(a);
+        if (std::abs(found) < enough * (f + ratio * m) || high - low < enough)
             break;
-        t += excess / (2 * (p * p / (a + t) + q * q / (b + t)));
+        // Regula falsi; an end that stays a second time counts half.
+        const int now = found > 0 ? 1 : -1;
+        (now > 0 ? low : high) = a;
+        (now > 0 ? atLow : atHigh) = found;
+        if (now == side)
+            (now > 0 ? atHigh : atLow) *= 0.5;
+        side = now;
+        a = (low * atHigh - high * atLow) / (atHigh - atLow);
     }
-    const double size = std::hypot(p, q);
-    return { p / size * limit.shear, q / size * limit.twist };
-}
-
-// f of the ellipse. Where the patch slips by v and turns by w, friction takes the mean of |v + w x y| over its points y
-// about the centre of pressure; the ellipse takes sqrt(v^2 + (f l w)^2), l the twist lever, which is right with f = 1
-// where it turns in place. The points: two ellipses with the shape of the second moments, so that the mean of |y| is l
-// and that of |y|^2 is J/A. v and w follow from the trial, normal to the ellipse with f. shear: its direction.
-inline double shareOfTwist(const FrictionForce& trial, const FrictionForce& limit, const ContactPatch& patch,
-                           const Eigen::Vector3d& shear)
-{
-    const double f = trial.shear / limit.shear, m = trial.twist / limit.twist, lever = patch.twistLever;
-    // A convex limit through both axes holds this.
-    if (!(f > 0 && m > 0 && f + m > 1 && lever > 0 && std::isfinite(f) && std::isfinite(m)))
-        return 1;
-    // Axes along the slip and across it.
-    const Eigen::Vector3d along = shear.normalized();
-    const double whole = patch.secondMoment.trace(), a = along.dot(patch.secondMoment * along) / whole, c = 1 - a;
-    if (!(whole > 0))
-        return 1;
-    // The sign of the product of inertia does not matter: the rings are symmetric.
-    const double square = (patch.secondMoment * along).squaredNorm() / (whole * whole) - a * a;
-    const double b = std::sqrt(std::max(0.0, square)), root = std::sqrt(std::max(0.0, a * c - b * b));
-    const double size = std::sqrt(1 + 2 * root) / M_SQRT2; // of the root of twice the matrix (a, b; b, c)
-    const double xx = (a + root) / size, xy = b / size, yy = (c + root) / size;
-    constexpr int points = 4; // of half a ring, at odd multiples of 22.5 degrees
-    constexpr double cosines[points] = { 0.92387953251128674, 0.38268343236508977, -0.38268343236508977,
-                                         -0.92387953251128674 };
-    constexpr double sines[points] = { 0.38268343236508977, 0.92387953251128674, 0.92387953251128674,
-                                       0.38268343236508977 };
-    double x[points], y[points], mean = 0;
-    for (int i = 0; i < points; ++i) {
-        x[i] = xx * cosines[i] + xy * sines[i];
-        y[i] = xy * cosines[i] + yy * sines[i];
-        mean += std::hypot(x[i], y[i]) / points;
-    }
-    const double middle = 1 / mean; // of both rings, in levers
-    const double off = std::sqrt(std::max(0.0, patch.polarMoment / (patch.area * lever * lever) - middle * middle));
-    double share = 1;
-    for (int turn = 0; turn < 3; ++turn) {
-        const double v = std::min(30.0, f / m * share * share); // in levers times w
-        double work = 0;
-        for (const double ring : { middle - off, middle + off })
-            for (int i = 0; i < points; ++i) {
-                const double across = ring * x[i], turned = ring * y[i];
-                work += std::sqrt((v - turned) * (v - turned) + across * across)
-                    + std::sqrt((v + turned) * (v + turned) + across * across);
-            }
-        work /= 4 * points;
-        share = std::sqrt(std::clamp(work * work - v * v, 0.0, 1.0));
-    }
-    return share;
+    const double beyond = std::sin(a) * (f - on.shear) + std::cos(a) * (m - on.twist);
+    return beyond > 0 ? FrictionForce { on.shear * limit.shear, on.twist * limit.twist } : trial;
 }
 
 // Largest shear force and twist of a patch that is pressed by that force: c A + mu N, and c L + mu N lambda. L, the

@@ -410,7 +410,8 @@ void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool 
     const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
     if (!contact.joint.touching)
         contact.joint.memory.broken = update->ntimestep >= wholeBefore;
-    const JointForces forces = jointForces(joint, contact.joint, body, wall, here, update->dt, advance,
+    const JointSides sides { shapes->sideOf(i, contact.joint.memory, true), {} };
+    const JointForces forces = jointForces(joint, contact.joint, body, wall, sides, here, update->dt, advance,
                                            [](int) { return PosedShape {}; });
     const double square = 4 * mass / forces.normalStiffness;
     if (update->dt * update->dt > square)
