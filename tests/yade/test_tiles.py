@@ -68,7 +68,7 @@ def block(height=0.0, turn=Quaternion.Identity, place=(0, 0), shape=None, radius
     return O.bodies[add(shape, turn * Vector3(*place, HALF + height), turn)]
 
 
-def rebound(kind, restitution, step=0.005, turn=Quaternion.Identity, loop=yade.ConicInteractionLoop, shape=None,
+def rebound(kind, restitution, step=0.01, turn=Quaternion.Identity, loop=yade.ConicInteractionLoop, shape=None,
             lower=0.0, own=Quaternion.Identity, place=(0, 0)):
     """Speed after over speed before of a block that lands; step: times the circular frequency of the block on its
     springs.
@@ -89,9 +89,11 @@ def rebound(kind, restitution, step=0.005, turn=Quaternion.Identity, loop=yade.C
 
 FLOORS = {"wall": "wall", "box": "box", "2 triangles": grid(1), "8 triangles": fan(8), "200 triangles": grid(10),
           "4 blocks": 2, "9 blocks": 3}
-for wanted in (0.05, 0.5, 0.95):
-    for name, kind in FLOORS.items() if wanted == 0.5 else list(FLOORS.items())[3::2]:
-        check.close(rebound(kind, wanted), wanted, 0.01 * wanted, f"restitution {wanted} on {name}")
+for name, kind in FLOORS.items():
+    check.close(rebound(kind, 0.5), 0.5, 0.005, f"restitution 0.5 on {name}")
+for name in ("8 triangles", "4 blocks"):
+    check.close(rebound(FLOORS[name], 0.05, step=0.003), 0.05, 5e-4, f"restitution 0.05 on {name}")
+    check.close(rebound(FLOORS[name], 0.95), 0.95, 5e-3, f"restitution 0.95 on {name}")
 tilt = turned((1, 2, 0.5), 0.9)
 for name in ("box", "8 triangles", "9 blocks"):
     check.close(rebound(FLOORS[name], 0.3, turn=tilt), 0.3, 0.003, f"restitution 0.3 on {name}, tilted")
@@ -102,16 +104,16 @@ check.close(rebound(grid(3), 0.5, loop=yade.InteractionLoop), rebound(grid(3), 0
 corner = Quaternion(Vector3(1, -1, 0).normalized(), math.atan(math.sqrt(2)))
 ball = cube(r=0.45, k=0.0, half=0.5)
 lower = 0.5 - (0.05 * math.sqrt(3) + 0.45)
-whole = rebound(grid(1, 4.0), 0.5, shape=ball, lower=lower, own=corner, place=(0.5, -0.5), step=0.002)
-for name, kind in (("a seam", grid(1, 4.0)), ("a vertex of six", grid(2, 4.0)), ("many", grid(60, 0.6))):
-    found = rebound(kind, 0.5, shape=ball, lower=lower, own=corner, step=0.002)
+whole = rebound(grid(1, 4.0), 0.5, shape=ball, lower=lower, own=corner, place=(0.5, -0.5), step=0.005)
+for name, kind in (("a seam", grid(1, 4.0)), ("a vertex of six", grid(2, 4.0)), ("many", grid(9, 0.3))):
+    found = rebound(kind, 0.5, shape=ball, lower=lower, own=corner, step=0.005)
     check.close(found, whole, 0.01 * whole, f"a rounded corner on {name}")
 
 # --- Housner's impact is that of the whole face ---------------------------------------------------------------------
 
 
 def rocked(kind):
-    scene(restitution=0.1, frictionAngle=1.5)
+    scene(restitution=0.1, frictionAngle=0.0)  # springs along a tile begin when it is touched
     floor(kind)
     body = block(-1e-9, radius=1e-4)
     body.state.vel, body.state.angVel = Vector3(0.005, 0, -0.005), Vector3(0, 0.01, 0)
@@ -186,11 +188,11 @@ check.true(max(abs(a - b) for a, b in zip(landed(False, True), straight)) < 1e-9
 
 seed = random.SystemRandom().randrange(10**6)
 draw = random.Random(seed)
-for number in range(12):
+for number in range(4):
     restitution = draw.choice((0.01, 0.05, 1.0, draw.uniform(0.01, 1)))
     scene(restitution=restitution, frictionAngle=draw.choice((0.0, 0.5)))
     turn = Quaternion(Vector3(*(draw.gauss(0, 1) for _ in range(3))).normalized(), draw.uniform(0, 3))
-    count = draw.choice((1, 4, 12))
+    count = draw.choice((1, 2, 4))
     floor(grid(count, 2.2), turn)
     body = block(draw.uniform(0, 1e-4) + 0.012, turn)
     body.state.ori = turn * Quaternion(Vector3(draw.gauss(0, 1), draw.gauss(0, 1), 0.1).normalized(),

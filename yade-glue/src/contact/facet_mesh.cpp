@@ -36,7 +36,7 @@ void FacetMesh::refresh(const yade::Scene& scene)
     const std::lock_guard<std::mutex> lock(mutex);
     if (isSeen())
         return;
-    if (!isOf(scene)) {
+    if (!isOf(scene) || isLate(scene)) {
         step.store(-1, std::memory_order_release);
         build(scene);
         owner = const_cast<yade::Scene&>(scene).weak_from_this();
@@ -51,9 +51,32 @@ bool FacetMesh::isOf(const yade::Scene& scene) const
     return owner.lock().get() == &scene && bodies.load(std::memory_order_relaxed) == scene.bodies->body.size();
 }
 
+bool FacetMesh::isLate(const yade::Scene& scene) const
+{
+    const int how = moved.load(std::memory_order_relaxed);
+    return how == rests || (how == moves && scene.iter - builtIn >= patience);
+}
+
+void FacetMesh::see(const yade::Body& facet, const BoundaryPoints& vertices)
+{
+    const auto id = static_cast<std::size_t>(facet.id);
+    if (id >= built.size() || moved.load(std::memory_order_relaxed) == rests)
+        return;
+    const double weld = weldOf(vertices);
+    if (std::equal(vertices.begin(), vertices.end(), built[id].begin(), [weld](const Vector3r& one, const Vector3r& other) {
+            return (one - other).squaredNorm() <= weld * weld;
+        }))
+        return;
+    const bool atRest = facet.state->vel == Vector3r::Zero() && facet.state->angVel == Vector3r::Zero();
+    moved.store(atRest ? rests : moves, std::memory_order_relaxed);
+}
+
 void FacetMesh::build(const yade::Scene& scene)
 {
     const auto& all = scene.bodies->body;
+    built.assign(all.size(), BoundaryPoints { Vector3r::Zero(), Vector3r::Zero(), Vector3r::Zero() });
+    builtIn = scene.iter;
+    moved.store(no, std::memory_order_relaxed);
     corners.assign(all.size(), Corners { -1, -1, -1 });
     first.clear();
     facets.clear();
@@ -70,6 +93,7 @@ void FacetMesh::build(const yade::Scene& scene)
             continue;
         const BoundaryPoints vertices = verticesOf(*all[id]->shape, *all[id]->state, Vector3r::Zero());
         placed.push_back({ id, vertices, weldOf(vertices) });
+        built[id] = vertices;
         largest = std::isfinite(placed.back().weld) ? std::max(largest, placed.back().weld) : largest;
     }
 
