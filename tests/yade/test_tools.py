@@ -145,4 +145,26 @@ check.true(functor.deepOverlaps > 0, f"{functor.deepOverlaps} overlaps beyond r"
 check.true(any("of the rounding radius" in str(one.message) for one in caught) or functor.deepOverlaps > 0, "said")
 functor.resetCounters()
 check.equal(functor.deepOverlaps, 0, "counters begin anew")
+
+# --- pictures of periodic cells, and what is mistyped ---------------------------------------------------------------
+
+import tempfile
+from potential_particles.output import vtk_files
+
+fresh_scene(yade.Ig2_ConicPP_ConicPP_ScGeom(), dt=1e-9, periodic=True)
+O.cell.setBox(3, 3, 3)
+one = add(cube(), Vector3(6.9, 0.9, -1.1))
+run(1)
+with tempfile.TemporaryDirectory() as folder:
+    potential_particles.Recorder(folder + "/cell")()
+    bodies = vtk_files.read(f"{folder}/cell.bodies.{O.iter:07d}.vtp")
+    cell = vtk_files.read(f"{folder}/cell.cell.{O.iter:07d}.vtp")
+    middle = Vector3(*(0.5 * (bodies["points"].min(0) + bodies["points"].max(0)).astype(float)))
+    check.close(middle, Vector3(0.9, 0.9, 1.9), 1e-3, "a body is drawn in the cell")
+    points = cell["points"]
+    check.equal((len(points), points.min(), points.max()), (24, 0.0, 3.0), "and the twelve edges of the cell")
+lower, upper = potential_particles.extrema([O.bodies[one]])
+check.close(0.5 * (lower + upper), O.bodies[one].state.pos, 1e-9, "extrema takes bodies, too")
+stone = shapes.cuboid((1, 1, 1), rounding=0.05)
+check.raises(ValueError, lambda: potential_particles.body(stone, postion=(0, 0, 0)), "mistyped", "did you mean position?")
 check.finish()
