@@ -85,7 +85,6 @@ public:
         if (!(load.heldStiffness > 0))
             return side;
         side.known = true;
-        const Sum own = sumOf(load);
         const Eigen::Vector3d normal = outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal);
         Sum rest;
         const Face* const mine = faceOf(normal);
@@ -93,22 +92,21 @@ public:
             const double cosine = face->normal.dot(normal);
             if (!(cosine > 0))
                 continue;
-            Sum sum = face->sum;
-            if (face == mine) {
-                if (sum.count == 1) // it is this one
-                    continue;
-                sum.add(-1, own);
-            }
-            rest.add(std::min(1.0, cosine * cosine), sum);
+            const double share = std::min(1.0, cosine * cosine);
+            if (face == mine && face->sum.count == 1) // it is this one
+                continue;
+            rest.add(share, face->sum);
+            if (face == mine)
+                rest.add(-share, sumOf(load));
         }
-        if (!(rest.stiffness > rounding * own.stiffness))
+        if (!(rest.stiffness > rounding * load.heldStiffness))
             return side;
-        side.stiffness = rest.stiffness / own.stiffness;
-        side.force = own.force > 0 ? std::max(0.0, rest.force) / own.force : 0;
+        side.stiffness = rest.stiffness / load.heldStiffness;
+        side.force = load.heldForce > 0 ? std::max(0.0, rest.force) / load.heldForce : 0;
         const Eigen::Vector3d here = load.heldPoint - origin, centroid = rest.first / rest.stiffness;
         side.centroid = centroid - here;
         side.spread = rest.second / rest.stiffness - centroid * centroid.transpose();
-        side.point = rest.force > rounding * own.force ? Eigen::Vector3d(rest.pressed / rest.force - here)
+        side.point = rest.force > rounding * load.heldForce ? Eigen::Vector3d(rest.pressed / rest.force - here)
                                                        : side.centroid;
         return side;
     }

@@ -55,8 +55,10 @@ void JointsInStep::refresh(const yade::Scene& scene)
         return;
     rows.clear();
     if (isOfLastStep(scene)) {
-        for (const auto& ofThread : noted)
-            rows.insert(rows.end(), ofThread.begin(), ofThread.end());
+        if (!noted.empty())
+            rows.swap(noted[0]);
+        for (auto ofThread = noted.begin() + (noted.empty() ? 0 : 1); ofThread != noted.end(); ++ofThread)
+            rows.insert(rows.end(), ofThread->begin(), ofThread->end());
     } else {
         readFrom(scene);
     }

@@ -42,7 +42,9 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
     JointsInStep& joints = JointsInStep::all();
     joints.refresh(*scene);
     const bool isHeld1 = one.mass.isHeld(), isHeld2 = other.mass.isHeld();
-    const JointSides sides = joints.sides(*scene, interaction, phys, shift, isHeld1, isHeld2);
+    const JointSides sides = parameters.dampingRatio > 0
+        ? joints.sides(*scene, interaction, phys, shift, isHeld1, isHeld2)
+        : JointSides {};
     JointLaw law(parameters, phys, one, other, sides, scene->dt);
 
     const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
