@@ -26,9 +26,9 @@ public:
     {
     }
 
-    // One step. patch: none if the bodies are apart, or if the bond holds and the contact was not sought (not mayEnd);
-    // motion(): of the patch; posed(1), posed(2): the shapes, for a patch that becomes a bond. Returns whether a bond
-    // holds the bodies.
+    // One step. patch: none if the bodies are apart, or if the bond holds and the contact was not sought (not
+    // mayEnd); motion(): of the patch; posed(1), posed(2): the shapes, for a patch that becomes a bond. Returns
+    // whether a bond holds the bodies.
     template <class Motion, class Posed>
     bool step(const ContactPatch* patch, bool mayEnd, Motion&& motion, Posed&& posed)
     {
@@ -54,9 +54,10 @@ public:
     void repeatAsPatch(const ContactPatch& patch, const JointMotion& motion, const Wrench& damping);
 
 private:
-    // A bond that reaches its strength holds for this step, in which the contact may not have been sought, and is ended
-    // in the next one, as if `bonded` had been set to false. False when it is ended: what it held along the joint is
-    // left to the springs of the patch, for open() or holdAsPatch() to continue with. mayEnd: the contact was sought.
+    // A bond that reaches its strength holds for this step, in which the contact may not have been sought, and is
+    // ended in the next one, as if `bonded` had been set to false. False when it is ended: what it held along the
+    // joint is left to the springs of the patch, for open() or holdAsPatch() to continue with. mayEnd: the contact
+    // was sought.
     bool holdAsBond(bool mayEnd);
     void holdAsPatch(const ContactPatch& patch, const JointMotion& motion);
     // The bodies are apart.
@@ -78,8 +79,9 @@ private:
     void takeStiffness(const ContactPatch& patch);
     void pushAsBond(const BondStrain& strain, const Wrench& damping);
     void push();
-    // How the bodies as a whole oppose this joint in a direction: the mobilities of both at the centres of all that they
-    // press on that side, each times the share of all that over this joint; nothing where a share is not known.
+    // How the bodies as a whole oppose this joint in a direction: the mobilities of both at the centres of all that
+    // they press on that side, each times the share of all that over this joint; nothing where a share is not
+    // known.
     struct Opposed {
         double one = 0, other = 0;
         double both() const { return one + other; }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// What a body holds by its other joints on the side of one of them: a boundary that is cut into tiles is one boundary.
+// What a body holds by its other joints on the side of one of them: a boundary that is cut into tiles is one
+// boundary.
 #pragma once
 
 #include <Eigen/Core>
@@ -58,8 +59,8 @@ struct JointSides {
     JointSide one, other; // of body 1, of body 2
 };
 
-// All joints of a body. Those of one normal, as of the tiles of a face, are added up; of a body with many faces, the later
-// ones with that of the nearest normal.
+// All joints of a body. Those of one normal, as of the tiles of a face, are added up; of a body with many faces,
+// the later ones with that of the nearest normal.
 class JointsOfBody {
 public:
     // outwards: the normal of the load points away from the body.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
-// What a joint bears: Mohr-Coulomb with cohesion, a tensile strength, and residual values once it has broken. Slip and
-// twist together: Coulomb's friction at points spread over the patch, so that a patch cut into parts bears the same.
+// What a joint bears: Mohr-Coulomb with cohesion, a tensile strength, and residual values once it has broken. Slip
+// and twist together: Coulomb's friction at points spread over the patch, so that a patch cut into parts bears the
+// same.
 #pragma once
 
 #include "contact_patch.hpp"
@@ -16,8 +17,8 @@ struct FrictionForce {
     double shear, twist; // sizes of the tangential force and of the moment about the normal
 };
 
-// By how much a force must be scaled to be within the ellipse of both limits, which encloses what the patch bears; 1 for
-// one that is.
+// By how much a force must be scaled to be within the ellipse of both limits, which encloses what the patch bears;
+// 1 for one that is.
 inline double allowedShare(const FrictionForce& force, const FrictionForce& limit)
 {
     const auto over = [](double part, double whole) { return part > 0 ? part / whole : 0; };
@@ -25,9 +26,9 @@ inline double allowedShare(const FrictionForce& force, const FrictionForce& limi
     return size > 1 ? 1 / size : 1;
 }
 
-// Where on a patch friction acts: on 16 points of two ellipses about the centre of pressure, with the shape of the second
-// moments of the patch, so that the mean of |y| is the lever of the twist and that of |y|^2 is J/A. Lengths in levers, axes
-// along the slip and across it.
+// Where on a patch friction acts: on 16 points of two ellipses about the centre of pressure, with the shape of the
+// second moments of the patch, so that the mean of |y| is the lever of the twist and that of |y|^2 is J/A. Lengths
+// in levers, axes along the slip and across it.
 class FrictionPoints {
 public:
     FrictionPoints(const ContactPatch& patch, const Eigen::Vector3d& slip, double lever)
@@ -82,8 +83,9 @@ private:
     double x[count], y[count], rings[2];
 };
 
-// The admissible force nearest to the trial in the energy of the springs, F^2/shearStiffness + M^2/twistStiffness: slip
-// is then normal to the limit surface, and its work is never negative. A trial within the limit is returned as it is.
+// The admissible force nearest to the trial in the energy of the springs, F^2/shearStiffness + M^2/twistStiffness:
+// slip is then normal to the limit surface, and its work is never negative. A trial within the limit is returned as
+// it is.
 inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& limit, const ContactPatch& patch,
                               const Eigen::Vector3d& slip, double shearStiffness, double twistStiffness)
 {
@@ -96,7 +98,8 @@ inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& l
         return trial;
     if (!(f > 0 && m > 0))
         return { std::min(trial.shear, limit.shear), std::min(trial.twist, limit.twist) };
-    // Of the slip, v = lever sin(a), w = cos(a), across what the force must lose: falls through 0 once, at the answer.
+    // Of the slip, v = lever sin(a), w = cos(a), across what the force must lose: falls through 0 once, at the
+    // answer.
     const double lever = limit.twist / limit.shear, ratio = lever * lever * shearStiffness / twistStiffness;
     const FrictionPoints points(patch, slip, lever);
     FrictionForce on {};
@@ -135,9 +138,10 @@ inline FrictionForce limitOf(const JointParameters& joint, bool broken, const Co
     return { cohesion * patch.area + friction, cohesion * lever + friction * patch.twistLever };
 }
 
-// The damage due to the largest stress, which is at a corner of the bonded area: 0 below the strength, 1 where the bond
-// breaks. With the load f, the stress over the strength as long as nothing is damaged, a linear fall of the stress to 0
-// over the opening or slip `softening` is (1 - D) f = 1 - (f - 1)/g, g = softening * stiffness / strength.
+// The damage due to the largest stress, which is at a corner of the bonded area: 0 below the strength, 1 where the
+// bond breaks. With the load f, the stress over the strength as long as nothing is damaged, a linear fall of the
+// stress to 0 over the opening or slip `softening` is (1 - D) f = 1 - (f - 1)/g, g = softening * stiffness /
+// strength.
 inline double damageOf(const JointParameters& joint, const Bond& bond, const BondStrain& strain)
 {
     const auto damage = [&](double stress, double strength, double stiffness) {

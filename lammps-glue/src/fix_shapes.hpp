@@ -4,8 +4,8 @@
 //
 // Which shape the atoms of a type have. Gives each atom its mass and the radius of its bounding ball, and keeps
 // orientations, quaternions w x y z, in LAMMPS's own custom property d2_orientation (fix property/atom), which
-// migrates, restarts, and is read and written by read_data, dump and set. An atom whose quaternion is 0 0 0 0 has none
-// yet, and gets one: 1 0 0 0, or a random one.
+// migrates, restarts, and is read and written by read_data, dump and set. An atom whose quaternion is 0 0 0 0 has
+// none yet, and gets one: 1 0 0 0, or a random one.
 #pragma once
 
 #include "shape.hpp"
@@ -39,8 +39,8 @@ public:
     double massOf(int type) const { return densities[type] * shape(type).volume; }
     double** orientations() const; // of local atoms, rows w x y z
 
-    // What atom i, which may be a ghost, holds beside a joint of the last step, by all pairs and walls. outwards: the normal
-    // of the joint points away from it.
+    // What atom i, which may be a ghost, holds beside a joint of the last step, by all pairs and walls. outwards:
+    // the normal of the joint points away from it.
     JointSide sideOf(int i, const JointLoad& load, bool outwards) const;
 
     // The only one of a simulation; ends LAMMPS, in the name of `asker`, where there is none.

@@ -19,16 +19,18 @@ namespace potential_particles {
 // Of a body with a Facet, in world axes from `origin`. Throws std::invalid_argument when it has no three vertices.
 BoundaryPoints verticesOf(const yade::Shape& facet, const yade::State& state, const yade::Vector3r& origin);
 
-// The facets around each vertex, from their positions when the scene's number of bodies changed last, or when a facet was
-// seen elsewhere (a gate that closes). The caller must check for later motion: this only gives the facets to check.
+// The facets around each vertex, from their positions when the scene's number of bodies changed last, or when a
+// facet was seen elsewhere (a gate that closes). The caller must check for later motion: this only gives the facets
+// to check.
 class FacetMesh {
 public:
-    // Call in each step before around(), from any thread: the first one of a step looks whether the mesh is still that
-    // of the scene, and the others wait for it.
+    // Call in each step before around(), from any thread: the first one of a step looks whether the mesh is still
+    // that of the scene, and the others wait for it.
     void refresh(const yade::Scene& scene);
 
-    // From any thread, after refresh(): the facet is here now (world axes). If that is not where it was, the mesh is made
-    // anew: in the next step if it rests, else once in so many steps, since most that moves keeps its neighbours.
+    // From any thread, after refresh(): the facet is here now (world axes). If that is not where it was, the mesh
+    // is made anew: in the next step if it rests, else once in so many steps, since most that moves keeps its
+    // neighbours.
     void see(const yade::Body& facet, const BoundaryPoints& vertices);
 
     // Ids of the facets that have vertex i of this one, itself among them; in ascending order.
