@@ -108,7 +108,7 @@ inline FrictionForce returned(const FrictionForce& trial, const FrictionForce& l
         return std::cos(a) * (f - on.shear) - std::sin(a) * ratio * (m - on.twist);
     };
     double low = 0, high = 0.5 * M_PI, atLow = f, atHigh = -ratio * m, a = std::atan2(f, m);
-    constexpr double enough = 1e-4; // of the direction; the force is on the limit whatever it is
+    constexpr double enough = 1e-6; // of the direction; the force is on the limit whatever it is
     int side = 0;
     for (int i = 0; i < 20; ++i) {
         const double found = across(a);
