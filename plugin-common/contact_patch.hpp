@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -39,6 +40,7 @@ struct ContactPatch {
         patch.centroid = Eigen::Vector3d(found.centroid);
         const auto& [xx, yy, zz, xy, yz, zx] = found.second_moment;
         patch.secondMoment << xx, xy, zx, xy, yy, yz, zx, yz, zz;
+        patch.boundLever();
         return patch;
     }
 
@@ -55,6 +57,24 @@ struct ContactPatch {
         patch.secondMoment = 0.5 * patch.polarMoment * (Eigen::Matrix3d::Identity() - normal * normal.transpose());
         patch.ofPoint = true;
         return patch;
+    }
+
+private:
+    // The library sums |y| over the few points at which it has the pressure, and |y| has a kink: on a triangle it is 7 %
+    // off. Under an even pressure it is 0.976 to 1.02 times that of the ellipse with the same moments, for triangles,
+    // rectangles and ellipses of any proportions.
+    void boundLever()
+    {
+        const double trace = secondMoment.trace();
+        const double product = 0.5 * (trace * trace - secondMoment.squaredNorm()); // of the two in the plane
+        if (!(trace > 0 && area > 0))
+            return;
+        const double root = 2 * std::sqrt(std::max(0.0, product));
+        // Ramanujan's perimeter of an ellipse with the half axes a and b, over pi; h = ((a - b)/(a + b))^2.
+        const double h = (trace - root) / (trace + root);
+        const double perimeter = std::sqrt(trace + root) * (1 + 3 * h / (10 + std::sqrt(4 - 3 * h)));
+        const double ofEllipse = 2.0 / 3.0 * perimeter / std::sqrt(trace) * std::sqrt(polarMoment / area);
+        twistLever = std::clamp(twistLever, 0.975 * ofEllipse, 1.02 * ofEllipse);
     }
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "bond.hpp"
+#include "joint_sides.hpp"
 
 #include <Eigen/Geometry>
 
@@ -22,7 +23,7 @@ struct JointParameters {
     double softening = 0; // opening or slip over which the stress in a bond falls to 0; 0: brittle
 };
 
-struct JointMemory : Bond {
+struct JointMemory : Bond, JointLoad {
     Eigen::Vector3d shearDisplacement = Eigen::Vector3d::Zero(); // elastic part, along the joint
     double twist = 0; // elastic part of the turn about the normal
     double energyAlong = 0; // of both in the last step
@@ -36,6 +37,7 @@ struct JointMass {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
 
+    bool isHeld() const { return !(masses.array().isFinite().any() || moments.array().isFinite().any()); }
     static Eigen::Vector3d held() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()); }
 };
 

@@ -10,11 +10,70 @@ namespace potential_particles {
 
 using Eigen::Vector3d;
 
-// Of dashpots beside springs of this stiffness, per area: 2 z sqrt(m K/A), m = 1/mobility the mass that the centre of
-// pressure moves; 0 where it moves none.
-double JointLaw::dashpotPerArea(double stiffness, double mobility, double area) const
+// A body swings on all joints of one side at once, of the stiffness K_b, with the circular frequency w,
+//
+//     w^2 = sum over both bodies of K_b u_b,    u_b the mobility at the centre of what it presses there,
+//
+// and dashpots of the ratio z to the critical one are 2 z/w times the springs. K_b is that of this joint now times what
+// it was of it in the last step: so that all dashpots of a side together never exceed those of one joint, whatever
+// comes and goes between two steps.
+JointLaw::Opposed JointLaw::opposedAt(const Vector3d& point, const Vector3d& direction) const
 {
-    return mobility > 0 ? 2 * joint.dampingRatio * std::sqrt(stiffness / (mobility * area)) : 0;
+    bool known = true;
+    const auto of = [&](const JointBody& body, const JointSide& side) {
+        const double mobility = body.mobility(
+            side.force > 0 ? Vector3d(point + side.force / (1 + side.force) * side.point) : point, direction);
+        known = known && (side.known || !(mobility > 0));
+        return mobility * (1 + side.stiffness);
+    };
+    const Opposed opposed { of(one, sides.one), of(other, sides.other) };
+    return known ? opposed : Opposed {};
+}
+
+// 2 z/w times their stiffness per area.
+double JointLaw::dashpotPerArea(double stiffness, double opposed, double area) const
+{
+    return opposed > 0 ? 2 * joint.dampingRatio * std::sqrt(stiffness / (opposed * area)) : 0;
+}
+
+// All that the bodies press on that side, over what this joint is of it: from its centre of pressure.
+struct JointLaw::Region {
+    double area, force;
+    Vector3d centroid, point;
+    Eigen::Matrix3d spread; // second moments about the centroid over the area
+};
+
+JointLaw::Region JointLaw::regionOf(const ContactPatch& patch, const Opposed& opposed) const
+{
+    Region region { 1, 1, patch.centroid, Vector3d::Zero(), patch.secondMoment / patch.area };
+    if (!(sides.one.stiffness > 0 || sides.other.stiffness > 0))
+        return region;
+    region.spread += patch.centroid * patch.centroid.transpose();
+    const auto add = [&](const JointSide& side, double share) {
+        const double area = share * side.stiffness, force = share * side.force;
+        region.area += area;
+        region.force += force;
+        region.centroid += area * side.centroid;
+        region.point += force * side.point;
+        region.spread += area * (side.spread + side.centroid * side.centroid.transpose());
+    };
+    add(sides.one, opposed.one / opposed.both());
+    add(sides.other, opposed.other / opposed.both());
+    region.centroid /= region.area;
+    region.point /= region.force;
+    region.spread = (region.spread / region.area - region.centroid * region.centroid.transpose()).eval();
+    return region;
+}
+
+// For the other joints of its bodies in the next step.
+void JointLaw::remember(const ContactPatch& patch, const JointMotion& motion)
+{
+    memory.heldStiffness = joint.normalStiffness * patch.area;
+    memory.heldForce = joint.normalStiffness * patch.force;
+    memory.heldNormal = motion.normal;
+    memory.heldPoint = motion.point;
+    memory.heldCentroid = patch.centroid;
+    memory.setSpread(patch.secondMoment / patch.area);
 }
 
 double JointLaw::energyAlong(const Springs& springs) const
@@ -38,6 +97,7 @@ void JointLaw::open()
     memory.shearDisplacement = Vector3d::Zero();
     memory.twist = memory.energyAlong = 0;
     memory.broken = true;
+    static_cast<JointLoad&>(memory) = {};
 }
 
 bool JointLaw::holdAsBond(bool mayEnd)
@@ -68,6 +128,14 @@ bool JointLaw::holdAsBond(bool mayEnd)
         all.energies.viscous = -dt * (damping.force.dot(velocity) + damping.moment.dot(other.spin - one.spin));
     }
     pushAsBond(strain, damping);
+    memory.heldStiffness = all.normalStiffness;
+    memory.heldForce = std::max(0.0, all.normalForce.dot(all.normal));
+    memory.heldNormal = all.normal;
+    memory.heldPoint = all.point;
+    memory.heldCentroid = Vector3d::Zero();
+    const Eigen::Matrix3d axes = (one.turn * memory.bondTurn1).toRotationMatrix();
+    const Vector3d spread = Vector3d(0, memory.bondMoments.z(), memory.bondMoments.y()) / memory.bondArea;
+    memory.setSpread(axes * spread.asDiagonal() * axes.transpose());
     return true;
 }
 
@@ -75,8 +143,7 @@ Wrench JointLaw::dashpotOfBond(const BondStrain& strain) const
 {
     const Vector3d n = strain.normal(), middle = strain.middle();
     const auto perArea = [&](const Vector3d& direction, double springs) {
-        return dashpotPerArea(springs, one.mobility(middle, direction) + other.mobility(middle, direction),
-                              memory.bondArea);
+        return dashpotPerArea(springs, opposedAt(middle, direction).both(), memory.bondArea);
     };
     return strain.dashpot({ perArea(n, joint.normalStiffness), perArea(n.unitOrthogonal(), joint.shearStiffness) },
                           other.velocityAt(middle) - one.velocityAt(middle), other.spin - one.spin);
@@ -193,6 +260,7 @@ void JointLaw::holdAsPatch(const ContactPatch& patch, const JointMotion& motion)
         if (!all.slides)
             dampAlong(patch, motion, limit);
     }
+    remember(patch, motion);
     push();
 }
 
@@ -216,33 +284,39 @@ void JointLaw::repeatAsPatch(const ContactPatch& patch, const JointMotion& motio
 }
 
 // The resistance of dashpots to the approach of the bodies, at the centre of pressure. Half of them act at each edge of
-// the patch, not spread over it, so that a body that lands on a face is pushed at the edge that lands, as in Housner.
-// The edges: of the direction g in which the approach changes, sqrt(3) times the radius of gyration from the centroid,
-// those of a rectangle along a side of it,
+// the region that the bodies press on this side, not spread over it, so that a body that lands on a face is pushed at
+// the edge that lands, as in Housner. The edges: of the direction g in which the approach changes, sqrt(3) times the
+// radius of gyration from the centroid, those of a rectangle along a side of it,
 //
-//     y = -+ sqrt(3) I g / sqrt(A g.I g),
+//     y = -+ sqrt(3) G g / sqrt(g.G g),
 //
-// with I the second moments of the area A. Neither edge is pulled more than the springs push there: what springs and
-// dashpots do together lies within the patch.
+// with G the second moments of the region over its area. Neither edge is pulled more than the springs push there: what
+// springs and dashpots do together lies within the region. Both edges together are a pressure that is linear over the
+// region, of which this joint bears its part.
 Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& motion) const
 {
     const Vector3d& n = motion.normal;
-    const double mobility = one.mobility(motion.point, n) + other.mobility(motion.point, n);
-    if (!(mobility > 0))
+    const Opposed opposed = opposedAt(motion.point, n);
+    if (!(opposed.both() > 0))
         return {};
-    const double half = 0.5 * dashpotPerArea(joint.normalStiffness, mobility, patch.area) * patch.area;
-    const Vector3d centre = motion.point + patch.centroid;
+    const Region region = regionOf(patch, opposed);
+    const double half = 0.5 * dashpotPerArea(joint.normalStiffness, opposed.both(), patch.area) * patch.area
+        * region.area;
+    const Vector3d centre = motion.point + region.centroid;
     const double opening = (other.velocityAt(centre) - one.velocityAt(centre)).dot(n);
-    const Vector3d gradient = n.cross(other.spin - one.spin), moved = patch.secondMoment * gradient;
-    const double spread = patch.area * gradient.dot(moved);
-    const Vector3d edge = spread > 0 ? Vector3d(std::sqrt(3 / spread) * moved) : Vector3d::Zero();
+    const Vector3d gradient = n.cross(other.spin - one.spin), moved = region.spread * gradient;
+    const double squared = gradient.dot(moved), scale = squared > 0 ? std::sqrt(3 / squared) : 0;
+    const Vector3d edge = scale * moved;
     const double reach = edge.squaredNorm();
-    const double off = reach > 0 ? std::clamp(-patch.centroid.dot(edge) / reach, -1.0, 1.0) : 0;
-    const double spring = 0.5 * joint.normalStiffness * patch.force, tilting = gradient.dot(edge);
+    const double off = reach > 0 ? std::clamp((region.point - region.centroid).dot(edge) / reach, -1.0, 1.0) : 0;
+    const double spring = 0.5 * joint.normalStiffness * patch.force * region.force, tilting = gradient.dot(edge);
     const double above = std::max(-half * (opening + tilting), -spring * (1 + off));
     const double below = std::max(-half * (opening - tilting), -spring * (1 - off));
-    const Vector3d force = (above + below) * n;
-    return { force, (above - below) * edge.cross(n) + patch.centroid.cross(force) };
+    // Per area of this joint over that of the region: the mean, and the slope along g.
+    const double mean = (above + below) / region.area, slope = (above - below) / region.area * scale;
+    const Vector3d ofPatch = slope / patch.area * (patch.secondMoment * gradient);
+    const Vector3d force = (mean + slope * gradient.dot(patch.centroid - region.centroid)) * n;
+    return { force, ofPatch.cross(n) + patch.centroid.cross(force) };
 }
 
 // The springs of the joint carry what they hold, and are stretched by the motion of this step; where the patch grows or
@@ -276,17 +350,18 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
     auto& [shear, twist] = springs;
     const FrictionForce trial { all.shearStiffness * shear.norm(), all.twistStiffness * std::abs(twist) };
     const double trialEnergy = energyAlong(springs);
+    const auto limitNow = [&] { return limitOf(joint, memory.broken, patch, std::max(0.0, pressing)); };
     const auto held = [&](const FrictionForce& limit) {
-        return returned(trial, limit, all.shearStiffness, all.twistStiffness);
+        return returned(trial, limit, patch, shear, all.shearStiffness, all.twistStiffness);
     };
-    FrictionForce limit = limitOf(joint, memory.broken, patch, pressing), left = held(limit);
+    FrictionForce limit = limitNow(), left = held(limit);
     all.slides = left.shear < trial.shear || left.twist < trial.twist;
     if (!all.slides)
         return limit;
     const bool breaks = !memory.broken;
     if (breaks) {
         memory.broken = true;
-        limit = limitOf(joint, true, patch, pressing);
+        limit = limitNow();
         left = held(limit);
     }
     const double shearLeft = trial.shear > 0 ? left.shear / trial.shear : 0,
@@ -308,8 +383,7 @@ void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, c
     const Vector3d& increment = motion.shearIncrement;
     const double spin = turning(motion.normal);
     const Vector3d direction = increment.norm() > 0 ? Vector3d(increment.normalized()) : motion.normal.unitOrthogonal();
-    const double mobility = one.mobility(motion.point, direction) + other.mobility(motion.point, direction);
-    const double perArea = dashpotPerArea(joint.shearStiffness, mobility, patch.area);
+    const double perArea = dashpotPerArea(joint.shearStiffness, opposedAt(motion.point, direction).both(), patch.area);
     Vector3d total = all.shearForce - perArea * patch.area / dt * increment;
     double totalTwist = all.twistMoment - perArea * patch.polarMoment * spin;
     const double share = allowedShare({ total.norm(), std::abs(totalTwist) }, limit);

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "fix_shapes.hpp"
 #include "entered.hpp"
+#include "fix_wall.hpp"
+#include "pair_potential_particle.hpp"
 
 #include "atom.h"
+#include "comm.h"
+#include "domain.h"
 #include "error.h"
 #include "force.h"
 #include "input.h"
@@ -144,6 +148,7 @@ void FixShapes::init()
         error->all(FLERR, "fix {}: the number of atom types has changed: give the fix after the box is made",
                    styleName);
     checkRun();
+    comm_forward = JointsOfBody::numbers;
     double** q = orientations();
     std::string why;
     for (int i = 0; i < atom->nlocal && why.empty(); ++i) {
@@ -178,12 +183,70 @@ void FixShapes::give(int i)
 }
 
 // What init() gave by the type holds for the whole run.
-void FixShapes::setup_pre_force(int) { endWhereAny(lmp, whyNotOfItsType()); }
+void FixShapes::setup_pre_force(int)
+{
+    endWhereAny(lmp, whyNotOfItsType());
+    gatherJoints();
+}
 
 void FixShapes::pre_force(int)
 {
     if (const std::string why = whyNotOfItsType(); !why.empty())
         error->one(FLERR, why);
+    gatherJoints();
+}
+
+// From the centre of the atom, or of its periodic image that is nearest: an atom may have crossed a border since.
+JointLoad FixShapes::seenFrom(int i, const JointLoad& load) const
+{
+    JointLoad seen = load;
+    seen.heldPoint -= Eigen::Vector3d(atom->x[i]);
+    domain->minimum_image(FLERR, seen.heldPoint.data());
+    return seen;
+}
+
+// Before pairs and walls change what their joints remember.
+void FixShapes::gatherJoints()
+{
+    auto* const pair = dynamic_cast<PairPotentialParticle*>(force->pair_match("potential/particle", 1));
+    std::vector<FixWall*> walls;
+    for (Fix* const fix : modify->get_fix_list())
+        if (auto* const wall = dynamic_cast<FixWall*>(fix); wall && wall->actsOnPatches())
+            walls.push_back(wall);
+    if (!(pair && pair->actsOnPatches()) && walls.empty()) {
+        joints.clear();
+        return;
+    }
+    joints.resize(static_cast<size_t>(atom->nlocal) + atom->nghost);
+    for (JointsOfBody& one : joints)
+        one.clear();
+    const auto add = [&](int i, const JointLoad& load, bool outwards) {
+        if (i < atom->nlocal)
+            joints[i].add(seenFrom(i, load), outwards);
+    };
+    if (pair && pair->actsOnPatches())
+        pair->eachLoad(add);
+    for (const FixWall* const wall : walls)
+        wall->eachLoad(add);
+    comm->forward_comm(this);
+}
+
+int FixShapes::pack_forward_comm(int count, int* atoms, double* buffer, int, int*)
+{
+    for (int n = 0; n < count; ++n)
+        joints[atoms[n]].write(buffer + JointsOfBody::numbers * n);
+    return JointsOfBody::numbers * count;
+}
+
+void FixShapes::unpack_forward_comm(int count, int first, double* buffer)
+{
+    for (int n = 0; n < count; ++n)
+        joints[first + n].read(buffer + JointsOfBody::numbers * n);
+}
+
+JointSide FixShapes::sideOf(int i, const JointLoad& load, bool outwards) const
+{
+    return joints.empty() ? JointSide {} : joints[i].without(seenFrom(i, load), outwards);
 }
 
 std::string FixShapes::whyNotOfItsType() const
@@ -235,7 +298,10 @@ double FixShapes::smallestRadius() const
     return smallest;
 }
 
-double FixShapes::memory_usage() { return static_cast<double>(shapes.size()) * sizeof(Shape); }
+double FixShapes::memory_usage()
+{
+    return static_cast<double>(shapes.size() * sizeof(Shape) + joints.size() * sizeof(JointsOfBody));
+}
 
 FixShapes* FixShapes::of(LAMMPS* lmp, const std::string& asker)
 {

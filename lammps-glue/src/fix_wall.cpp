@@ -26,6 +26,7 @@ namespace potential_particles {
 namespace {
 
 constexpr double mostRadii = 1e9; // coordinates are then rounded by 1e-7 of a body
+constexpr double onePlane = 1e-6; // of a radius, and as an angle: planes that are no farther apart are one
 
 } // namespace
 
@@ -58,6 +59,15 @@ void FixWall::checkPlace() const
                    "fix {} {}: it has a coordinate of {}, beyond {} radii of the smallest body, {}: put it nearer to "
                    "the origin",
                    id, style, farthest, mostRadii, shapes->smallestRadius());
+    const double close = onePlane * shapes->smallestRadius();
+    for (size_t i = 0; i < planes.size(); ++i)
+        for (size_t j = 0; j < i; ++j)
+            if (planes[i].normal.cross(planes[j].normal).norm() < onePlane
+                && std::abs(planes[i].normal.dot(planes[i].point - planes[j].point)) < close)
+                error->all(FLERR,
+                           "fix {} {}: planes {} and {} are one, and would push bodies twice: a plane has two sides; "
+                           "leave one out",
+                           id, style, j + 1, i + 1);
 }
 
 void FixWall::setup(int flags)
@@ -410,7 +420,8 @@ void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool 
     const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
     if (!contact.joint.touching)
         contact.joint.memory.broken = update->ntimestep >= wholeBefore;
-    const JointForces forces = jointForces(joint, contact.joint, body, wall, here, update->dt, advance,
+    const JointSides sides { shapes->sideOf(i, contact.joint.memory, true), {} };
+    const JointForces forces = jointForces(joint, contact.joint, body, wall, sides, here, update->dt, advance,
                                            [](int) { return PosedShape {}; });
     const double square = 4 * mass / forces.normalStiffness;
     if (update->dt * update->dt > square)

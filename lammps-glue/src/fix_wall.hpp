@@ -46,6 +46,15 @@ public:
     void restart(char* saved) override;
     double memory_usage() override;
 
+    bool actsOnPatches() const { return byPatch; }
+    // Calls add(atom, load, true) for each joint.
+    template <class Add> void eachLoad(Add&& add) const
+    {
+        for (int i = 0; i < atom->nlocal; ++i)
+            for (const Known& one : around[i].known)
+                add(i, one.joint.memory, true);
+    }
+
 private:
     // An element: a plane, or, from planes.size() on, a triangle.
     struct Known {

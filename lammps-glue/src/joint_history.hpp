@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <optional>
+#include <type_traits>
 
 namespace potential_particles {
 
@@ -35,6 +36,7 @@ struct JointHistory {
             visit(vector->data(), 3);
         visit(&m.twist, 1);
         visit(&m.energyAlong, 1);
+        JointLoad::eachHeld<std::conditional_t<std::is_const_v<History>, const JointLoad, JointLoad>>(m, visit);
         visit(&m.bondArea, 1);
         if (!(m.bondArea > 0))
             return;
@@ -134,10 +136,10 @@ constexpr double areaTolerance = 1e-6; // of a disc in the place of a patch
 // run), the history stays as it is. posed(1), posed(2): the shapes, for a patch that becomes a bond.
 template <class Posed>
 JointForces jointForces(const JointParameters& joint, JointHistory& history, const JointBody& one,
-                        const JointBody& other, const std::optional<PatchInStep>& here, double dt, bool advance,
-                        Posed&& posed)
+                        const JointBody& other, const JointSides& sides, const std::optional<PatchInStep>& here,
+                        double dt, bool advance, Posed&& posed)
 {
-    JointLaw law(joint, history.memory, one, other, dt);
+    JointLaw law(joint, history.memory, one, other, sides, dt);
     const auto motionAt = [&](const PatchInStep& patch) {
         return JointMotion::of(one, other, patch.point, patch.normal, history.normal, dt);
     };

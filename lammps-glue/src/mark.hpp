@@ -34,6 +34,6 @@ inline double markOfBoth(double a, double b) { return 2 * a + b; }
 
 // The first number of what fixes write into restart files: files of plugins that knew no marks begin with a sum of
 // energy.
-constexpr double savedFormat = -2;
+constexpr double savedFormat = -3;
 
 } // namespace potential_particles

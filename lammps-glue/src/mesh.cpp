@@ -3,6 +3,8 @@
 #include "entered.hpp"
 #include "mark.hpp"
 
+#include "plugin-common/welder.hpp"
+
 #include <potential_particles.h>
 
 #include <algorithm>
@@ -10,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -102,7 +105,31 @@ Mesh::Mesh(const std::string& bytes, const std::string& path, double scale)
             throw std::runtime_error(path + ": triangle " + std::to_string(n / 3 + 1)
                                      + " has no area to rounding: remove it from the mesh");
     }
+    dropRepeated();
     sortIntoCells();
+}
+
+// A triangle with the corners of another one, in whatever order, would push twice.
+void Mesh::dropRepeated()
+{
+    double largest = 0;
+    for (const Triangle& triangle : triangles)
+        largest = std::max(largest, weldOf(triangle));
+    Welder welder(largest);
+    std::set<std::array<int, 3>> known;
+    const auto isKnown = [&](const Triangle& triangle) {
+        const double weld = weldOf(triangle);
+        if (!isUsable(triangle, weld))
+            return false;
+        std::array<int, 3> corners;
+        for (size_t i = 0; i < 3; ++i)
+            corners[i] = welder.numberOf(triangle[i], weld);
+        std::sort(corners.begin(), corners.end());
+        return !known.insert(corners).second;
+    };
+    const size_t before = triangles.size();
+    triangles.erase(std::remove_if(triangles.begin(), triangles.end(), isKnown), triangles.end());
+    dropped = before - triangles.size();
 }
 
 Eigen::Array3i Mesh::cellOf(const Eigen::Vector3d& x) const

@@ -18,6 +18,7 @@ public:
     // Throws std::runtime_error.
     Mesh(const std::string& bytes, const std::string& path, double scale);
 
+    size_t repeated() const { return dropped; } // triangles that the file has twice
     const Triangle& triangle(int t) const { return triangles[t]; }
     const Eigen::Vector3d& low() const { return lowest; } // of the box around all vertices
     const Eigen::Vector3d& high() const { return highest; }
@@ -28,6 +29,7 @@ public:
     void near(const Eigen::Vector3d& centre, double radius, std::vector<int>& found) const;
 
 private:
+    void dropRepeated();
     void sortIntoCells();
     Eigen::Array3i cellOf(const Eigen::Vector3d& x) const;
 
@@ -35,6 +37,7 @@ private:
     Eigen::Vector3d lowest, highest;
     Eigen::Array3i cells;
     double cellSize = 1;
+    size_t dropped = 0;
     std::vector<std::vector<int>> inCell;
 };
 

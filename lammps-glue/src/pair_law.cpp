@@ -147,7 +147,8 @@ void PairPotentialParticle::actOnPatch(int slot)
         history = newJoint(joint);
     JointForces forces;
     try {
-        forces = jointForces(joint, history, bodyOf(a), bodyOf(b), here, update->dt, advance,
+        const JointSides sides { shapes->sideOf(a, history.memory, true), shapes->sideOf(b, history.memory, false) };
+        forces = jointForces(joint, history, bodyOf(a), bodyOf(b), sides, here, update->dt, advance,
                              [&](int body) { return posedShape(body == 1 ? a : b); });
     } catch (const std::exception& refused) {
         error->one(FLERR, "{}: the patch of atoms {} and {} cannot become a bond: {}", style, atom->tag[a],

@@ -56,6 +56,14 @@ public:
     double markAtBuild(int slot) const { return markOfBoth(marks[bodies[slot].a], marks[bodies[slot].b]); }
     std::pair<int, int> bodiesOf(int slot) const { return { bodies[slot].a, bodies[slot].b }; }
     bool lasts(int slot) const { return byPatch ? joints[slot].lasts() : histories[slot].touching; }
+    // Calls add(atom, load, whether its normal points away from it) for both atoms of each joint.
+    template <class Add> void eachLoad(Add&& add) const
+    {
+        for (int slot = 0; slot < slotCount(); ++slot) {
+            add(static_cast<int>(bodies[slot].a), joints[slot].memory, true);
+            add(static_cast<int>(bodies[slot].b), joints[slot].memory, false);
+        }
+    }
     bool isBond(const ContactMemory::Partner& partner) const;
     bool isBond(int slot) const { return byPatch && joints[slot].isBond(); }
     int valueCount(int slot) const;

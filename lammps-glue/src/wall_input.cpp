@@ -5,6 +5,7 @@
 #include "entered.hpp"
 
 #include "atom.h"
+#include "comm.h"
 #include "error.h"
 #include "utils.h"
 
@@ -106,6 +107,9 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
         } catch (const std::runtime_error& refused) {
             error->all(FLERR, std::string(refused.what()));
         }
+        if (mesh->repeated() > 0 && comm->me == 0)
+            error->warning(FLERR, "{}: {} of the triangles of {} have the corners of another one, and are left out", style,
+                           mesh->repeated(), file);
     }
     if (planes.empty() && !mesh)
         error->all(FLERR, "{}: there is no wall: give plane or stl", style);

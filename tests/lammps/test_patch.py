@@ -4,6 +4,7 @@
 import numpy as np
 from potential_particles_lammps import polyhedron, write_shapes
 from potential_particles_lammps.pictures import frames
+from test_walls import floor as tiles, write_stl
 from scene import DEFAULTS, SCRIPT, TOP, lammps, long, process, random_bodies, refused, run, shapes, state, thermo
 from test_motion import YADE
 from test_ranks import AGAIN
@@ -356,3 +357,25 @@ def test_bonds_that_are_stretched_out_of_reach(folder):
                    coefficients="pair_coeff * * 1e3 1e3 0.4 1 cohesion 1e9 tension 1e9", gravity="",
                    timestep="timestep 1e-4", neighbor="neighbor 0.01 bin", run="run 2000")
     assert "2 bonded atoms have lost their partner" in said and "larger stiffness" in said
+
+
+def test_restitution_whatever_the_floor_is_cut_into(folder):
+    """A block that lands flat leaves with its restitution from a plane, from 2, 8 and 200 triangles, and from four
+    blocks side by side that do not move.
+    """
+    for cells in (1, 2, 10):
+        write_stl(folder / f"floor{cells}.stl", tiles(cells, 1.3 * HALF[0] + HALF[1]))
+    landing = still((0.001, 0.002, HALF[2] + 1e-7), v=(0, 0, -0.01))
+    beside = [still((x * HALF[0], y * HALF[1], -HALF[2])) for x in (-1, 1) for y in (-1, 1)]
+    for wanted, share in ((0.05, 0.001), (0.5, 0.004), (0.9, 0.004)):
+        step = share / np.sqrt(KN * AREA / MASS)
+        for name in ("plane 0 0 0 0 0 1", "stl floor1.stl", "stl floor2.stl", "stl floor10.stl", "blocks"):
+            with_blocks = name == "blocks"
+            dumped, _ = run(
+                folder, [landing] + (beside if with_blocks else []), shapes=block(folder), style=PATCH, gravity="",
+                coefficients=f"pair_coeff * * {KN} {KS} {MU} {wanted}", timestep=f"timestep {step:.17g}",
+                walls="group held id 2:5\nunfix move\ngroup free id 1\nfix move free nve/potential/particle" if with_blocks
+                else f"fix floor all wall/potential/particle {KN} {KS} {MU} {wanted} {name} patch 1e-6",
+                run=f"run {int(12 / share)}")
+            found = dumped[-1][1]["vz"][0] / 0.01
+            assert abs(found - wanted) < 0.01 * wanted, (name, wanted, found)

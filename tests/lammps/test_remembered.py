@@ -127,7 +127,7 @@ def test_restart_of_another_version(folder):
     saved(folder, PLANE)
     whole = (folder / "half.restart").read_bytes()
     for numbers, who in ((20, "fix floor wall/potential/particle"), (8, "pair_style potential/particle")):
-        begin = struct.pack("<id", 8 * numbers, -2.0)
+        begin = struct.pack("<id", 8 * numbers, -3.0)
         assert whole.count(begin) == 1
         (folder / "half.restart").write_bytes(whole.replace(begin, struct.pack("<id", 8 * numbers, 0.5)))
         said = refused(folder, [resting(2)], script=AGAIN, walls=PLANE)

@@ -4,7 +4,8 @@ import shutil
 import struct
 
 import numpy as np
-from scene import DENSITY, DT, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, random_bodies, run, shapes, state, thermo
+from scene import (DENSITY, DT, FRICTION, SCRIPT, SHEAR, STIFFNESS, TOP, random_bodies, refused, run, shapes, state,
+                   thermo)
 from test_motion import compare
 
 
@@ -156,3 +157,22 @@ def test_shipped_hopper_holds(folder):
         run="dump_modify all every 1000\nrun 3000")
     x = state(dumped[-1][1])[:, :3]
     assert np.isfinite(x).all() and (np.abs(x[:, :2]) < 1.5).all() and (x[:, 2] > -1.5).all(), x
+
+
+def test_what_is_given_twice_pushes_once(folder):
+    """Triangles that a mesh has twice, flipped or within rounding, are left out with a warning; planes are refused."""
+    once = np.array(floor(3, 0.9), float)
+    write_stl(folder / "once.stl", once)
+    doubled = [np.concatenate([once, once[:5]]), np.concatenate([once, once[:5, ::-1]]),
+               np.concatenate([once, once[:5, [1, 2, 0]]])]
+    ball = [(2, (0.1, 0.05, 0.0298), (0.3, 0, -0.1), (0, 0, 0), (1, 0, 0, 0))]
+    wall = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} 0.4 0.5 "
+    expected, _ = run(folder, ball, walls=wall + "stl once.stl", run="run 100")
+    for mesh in doubled:
+        write_stl(folder / "twice.stl", mesh)
+        found, said = run(folder, ball, walls=wall + "stl twice.stl", run="run 100")
+        assert (state(found[-1][1]) == state(expected[-1][1])).all()
+        assert "5 of the triangles of twice.stl have the corners of another one" in said
+    for again in ("0 0 0 0 0 1", "1 2 0 0 0 -1", "0 0 1e-9 0 0 2"):
+        said = refused(folder, ball, walls=wall + f"plane 0 0 0 0 0 1 plane 1 0 0 1 0 0 plane {again}")
+        assert "planes 1 and 3 are one" in said

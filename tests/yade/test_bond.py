@@ -403,7 +403,13 @@ phys, geom = joint(), O.interactions[0, 1].geom
 friction = FRICTION * phys.normalForce.norm()
 most = STRENGTH * geom.contactArea + friction
 turning = STRENGTH * 2 * math.sqrt(2) / 3 * math.sqrt(geom.contactArea * geom.polarMoment) + friction * geom.twistLever
-check.close((phys.shearForce.norm() / most)**2 + (phys.twistMoment / turning)**2, 1.0, 1e-9, "on the ellipse")
+# At each point alike: of a square whose sides move by +-0.3 and +-0.4 m/s along them.
+middles = [(i + 0.5) / 60 - 0.5 for i in range(60)]
+velocities = [(0.3 - 0.8 * EDGE * y, 0.8 * EDGE * x, x, y) for x in middles for y in middles]
+slip = sum(vx / math.hypot(vx, vy) for vx, vy, _, _ in velocities) / len(velocities)
+turn = sum((x * vy - y * vx) / math.hypot(vx, vy) for vx, vy, x, y in velocities) / len(velocities) / 0.382598
+check.close(phys.shearForce.norm() / most, slip, 0.03, "force of slip and twist")
+check.close(abs(phys.twistMoment) / turning, abs(turn), 0.03, "moment of slip and twist")
 
 # --- time step, loop, threads, saves
 # ----------------------------------------------------------------------------------------

@@ -260,7 +260,7 @@ for periodic in False, True:
     check.equal([one for one in findings() if one.startswith("Law2")], [], "CohFrict, rotations=True")
 right_scene()
 O.engines[2].lawDispatcher.functors = [moments[1]()]
-finds(1, "Law2_ScGeom6D_CohFrictPhys_CohesionMoment asks for a geometry with bending and twist", "rotations=True")
+finds(2, "Law2_ScGeom6D_CohFrictPhys_CohesionMoment asks for a geometry with bending and twist", "rotations=True")
 # A law that serves spheres alone, beside the right one.
 right_scene()
 O.engines[2].lawDispatcher.functors = [

@@ -120,4 +120,21 @@ check.equal(len(look()), 1, "the other facet takes over")
 facets([[(-2, -2, 0), (0, -2, 0), (0, 2, 0)]])
 check.equal(len(look()), 1, "a new neighbour is known as such")
 
+# A gate that closes: its facets become neighbours, at once where they stop, and before long while they move on.
+mixed_scene(dt=1e-12)
+left, right = facets([[(-2, -2, 0), (0, -2, 0), (0, 2, 0)], [(0.1, -2, 0), (2.1, -2, 0), (0.1, 2, 0)]])
+add(ball(0.3), Vector3(0, 0, 0.29), volume=1.0, inertia=Vector3(1, 1, 1))
+check.equal(len(look()), 1, "the edge of an open gate")
+O.bodies[right].state.pos -= Vector3(0.1, 0, 0)
+look()
+check.equal(len(look()), 1, "a gate that has closed")
+for one in (left, right):
+    O.bodies[one].state.pos += Vector3(0, 0, 1e-4)
+    O.bodies[one].state.vel = Vector3(0, 0, 1e-9)
+O.bodies[right].state.pos += Vector3(0.1, 0, 0)
+look()
+O.bodies[right].state.pos -= Vector3(0.1, 0, 0)
+run(60)
+check.equal(len(look()), 1, "a gate that closes and moves on")
+
 check.finish()

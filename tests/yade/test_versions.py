@@ -133,6 +133,12 @@ def expected_of(found):
             **{name: getattr(former, name)
                for name in (*STRENGTH, "tangensOfResidualFrictionAngle") if name in joint}
         }
+    if found.get("ConicJointPhys", 2) < 2 and "joint" in expected:
+        # What a joint keeps of its last step was not in files, and friction in slip and twist was another one.
+        kind, joint = expected["joint"]
+        former = yade.ConicJointPhys()
+        joint = {name: getattr(former, name) if name.startswith("held") else value for name, value in joint.items()}
+        expected["joint"] = kind, {name: joint[name] for name in joint if name not in ("shearForce", "twistMoment")}
     if "ConicInteractionLoop" not in found:
         del expected["bounds"], expected["engines"]
     return expected

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE bodies made of shapes; what moves a body and with it, its size, and where
 its periodic image is."""
+import difflib
+import inspect
 import math
 
 from .arguments import number, unit_quaternion, vector
@@ -20,6 +22,11 @@ def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 
     """
     import yade
     from .shape import Shape
+    known = set(inspect.signature(body).parameters) | set(yade.ConicPotentialParticle().dict())
+    for name in attributes:
+        if name not in known:
+            near = difflib.get_close_matches(name, known - {"attributes"}, 1)
+            raise ValueError(f"body has no keyword {name}" + (f": did you mean {near[0]}?" if near else ""))
     if not isinstance(shape, Shape):
         raise ValueError(f"shape is {type(shape).__name__}, not a Shape: make one by potential_particles.shapes")
     material = _material(material)
@@ -81,6 +88,15 @@ def image_shift(contact):
     """From body id2 of a contact to its periodic image that touches body id1, world axes, length."""
     import yade
     return yade.O.cell.hSize * contact.cellDist if yade.O.periodic else yade.Vector3.Zero
+
+
+def into_cell(body):
+    """From a body to where it is drawn in a periodic cell, as YADE draws spheres; a clump's members stay together."""
+    import yade
+    if not yade.O.periodic:
+        return yade.Vector3.Zero
+    place = owner(body).state.pos
+    return yade.O.cell.wrap(place) - place
 
 
 def _material(material):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from . import time_step, unserved
+from . import time_step, tools, traps, unserved
 from .arguments import is_friction_angle
 from .bodies import is_free
 from .clumps import union
@@ -53,7 +53,9 @@ def check():
     thickness; compaction by growing spheres; friction angles that are no radians in [0, pi/2); laws with the lever arms
     of spheres; overlaps beyond the rounding radius; O.dt beyond critical_time_step(safety=1), or left to a stepper that
     knows no contact yet; masses that are not volume times density (1 %); clumps that are not the union of their
-    members; weights that the stiffness cannot bear within r; rotation integrated as that of spheres. The list is empty
+    members; weights that the stiffness cannot bear within r; rotation integrated as that of spheres; YADE's own contact
+    functor; boxes that do not follow a turn; materials without Ip2 or law; spins without angular momentum; cells smaller
+    than two bodies; engines and laws that do not serve these bodies (tools.py). The list is empty
     where none is found, and in scenes without potential particles. Call it when bodies, engines and O.dt are set, and
     again after some steps, when there are contacts.
     """
@@ -79,12 +81,16 @@ def findings(scene, measured=_MEASURED_AT_FIRST):
     return [*_bounds(scene, bounds), *_contacts(scene, geometry), *_flat_boxes(yade, scene), *_controllers(scene),
             *_angles(yade, ours), *_laws(scene, ours, physics), *_overlap(), *_time_step(scene),
             *_mass(yade, moving, measured), *_clumps(scene, measured), *_weight(scene, moving),
-            *_rotation(scene, moving)]
+            *_rotation(scene, moving),
+            *(Finding(*one) for found in (traps.functors_of_yade(ours, geometry), traps.turning_boxes(scene, moving),
+                                          traps.materials_without_law(scene, ours, geometry, physics),
+                                          traps.lost_spins(scene, moving), traps.small_cells(scene, ours),
+                                          tools.silent_engines(scene, ours)) for one in found)]
 
 
 class Watch:
-    """Warns of what check() finds, of each thing once in a scene: before it is stepped first, when it has its first
-    contacts, and when its bodies or engines have become others; once more after a body has got another shape, whose
+    """Warns of what check() finds, of each thing once in a scene: before and after its first step, when it has its first
+    contacts, when the first overlap beyond r was counted, and when its bodies or engines have become others; once more after a body has got another shape, whose
     mass YADE leaves as it was.
     """
 
@@ -100,7 +106,7 @@ class Watch:
         functors = [type(functor).__name__ for engine in scene.engines for part in ("geomDispatcher", "lawDispatcher")
                     for functor in getattr(getattr(engine, part, None), "functors", ())]
         # A scene without a contact loop is not complete, or has its contacts elsewhere.
-        now = (len(scene.bodies), functors, scene.interactions.countReal() > 0)
+        now = (len(scene.bodies), functors, scene.iter > 0, scene.interactions.countReal() > 0, _deep_overlaps(scene) > 0)
         if not functors or (scene.iter > 0 and now == self.seen):
             return
         self.seen = now
@@ -113,6 +119,12 @@ class Watch:
                 self.told.add(one.remedy)
                 # Without a place in a source file: the line is about the scene, and stays one line.
                 warnings.warn_explicit(f"potential_particles: {one}", SceneWarning, "potential_particles", 0)
+
+
+def _deep_overlaps(scene):
+    """How often functors of ours have found an overlap beyond the rounding radius r."""
+    return sum(getattr(functor, "deepOverlaps", 0) for engine in scene.engines
+               for functor in getattr(getattr(engine, "geomDispatcher", None), "functors", ()))
 
 
 def notice_shapes(yade, watch):
@@ -199,6 +211,9 @@ def _laws(scene, ours, dispatchers):
     others = list({type(body.mat): body.mat for body in scene.bodies if body.mat}.values())
     made = {type(functor).__name__ for dispatcher in dispatchers for one in materials for other in others
             for functor in [dispatcher.dispFunctor(one, other)] if functor}
+    for name in tools.untried_laws(scene, made):
+        yield Finding(f"{name} has not been tried with these bodies; most laws take the lever arms of spheres",
+                      "compare torques with arm times force, or use a law of docs/laws.md")
     for law in [
             law for engine in scene.engines for law in getattr(getattr(engine, "lawDispatcher", None), "functors", ())
     ]:

@@ -178,7 +178,10 @@ def _moment_of_net_forces(sides, yade):
 
 def counted(bodies):
     import yade
-    chosen = yade.O.bodies if bodies is None else [yade.O.bodies[int(one)] for one in bodies]
+    if bodies is None:
+        chosen = yade.O.bodies
+    else:
+        chosen = [one if isinstance(one, yade.Body) else yade.O.bodies[int(one)] for one in bodies]
     return [body for body in chosen if isinstance(body.shape, (yade.PotentialParticle, yade.Sphere))]
 
 

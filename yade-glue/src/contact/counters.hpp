@@ -34,6 +34,7 @@ enum class Count {
     patchFallbacks,
     extended,
     failures,
+    deepOverlaps,
     nanoseconds,
     number
 };

@@ -3,79 +3,15 @@
 
 #include "abi/primitives.hpp"
 
+#include "plugin-common/welder.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <stdexcept>
-#include <unordered_map>
 
 namespace potential_particles {
 
 using yade::Vector3r;
-
-namespace {
-
-    // Gives the same number to points that are closer than their weld.
-    class Welder {
-    public:
-        // `largest`: no weld is longer.
-        explicit Welder(double largest) : cell(8 * largest) { }
-
-        int numberOf(const Vector3r& point, double weld)
-        {
-            // A point within the weld lies in one of the cells that a cube of twice that size touches.
-            const Index low = indexOf(point - Vector3r::Constant(weld));
-            const Index high = indexOf(point + Vector3r::Constant(weld));
-            Index at = low;
-            for (at[0] = low[0]; at[0] <= high[0]; ++at[0])
-                for (at[1] = low[1]; at[1] <= high[1]; ++at[1])
-                    for (at[2] = low[2]; at[2] <= high[2]; ++at[2]) {
-                        const auto [begin, end] = known.equal_range(keyOf(at));
-                        for (auto one = begin; one != end; ++one)
-                            if ((points[static_cast<std::size_t>(one->second)] - point).norm() <= weld)
-                                return one->second;
-                    }
-            const int number = static_cast<int>(points.size());
-            points.push_back(point);
-            known.emplace(keyOf(indexOf(point)), number);
-            return number;
-        }
-
-        std::size_t size() const { return points.size(); }
-
-    private:
-        using Index = std::array<std::int64_t, 3>;
-
-        Index indexOf(const Vector3r& point) const
-        {
-            Index index;
-            for (int i = 0; i < 3; ++i)
-                index[static_cast<std::size_t>(i)] = static_cast<std::int64_t>(std::floor(point[i] / cell));
-            return index;
-        }
-
-        static std::uint64_t keyOf(const Index& index)
-        {
-            std::uint64_t key = 0;
-            for (const std::int64_t one : index)
-                key = (key ^ static_cast<std::uint64_t>(one)) * 0x9e3779b97f4a7c15u + (key >> 29);
-            return key;
-        }
-
-        const double cell;
-        std::vector<Vector3r> points;
-        std::unordered_multimap<std::uint64_t, int> known;
-    };
-
-    // Beyond, cells have no number; such a mesh has no digits left either.
-    bool isUsable(const BoundaryPoints& vertices, double weld)
-    {
-        return weld > 0 && std::all_of(vertices.begin(), vertices.end(), [weld](const Vector3r& vertex) {
-            return vertex.allFinite() && vertex.cwiseAbs().maxCoeff() < 1e18 * weld;
-        });
-    }
-
-} // namespace
 
 BoundaryPoints verticesOf(const yade::Shape& shape, const yade::State& state, const Vector3r& origin)
 {
@@ -100,7 +36,7 @@ void FacetMesh::refresh(const yade::Scene& scene)
     const std::lock_guard<std::mutex> lock(mutex);
     if (isSeen())
         return;
-    if (!isOf(scene)) {
+    if (!isOf(scene) || isLate(scene)) {
         step.store(-1, std::memory_order_release);
         build(scene);
         owner = const_cast<yade::Scene&>(scene).weak_from_this();
@@ -115,9 +51,32 @@ bool FacetMesh::isOf(const yade::Scene& scene) const
     return owner.lock().get() == &scene && bodies.load(std::memory_order_relaxed) == scene.bodies->body.size();
 }
 
+bool FacetMesh::isLate(const yade::Scene& scene) const
+{
+    const int how = moved.load(std::memory_order_relaxed);
+    return how == rests || (how == moves && scene.iter - builtIn >= patience);
+}
+
+void FacetMesh::see(const yade::Body& facet, const BoundaryPoints& vertices)
+{
+    const auto id = static_cast<std::size_t>(facet.id);
+    if (id >= built.size() || moved.load(std::memory_order_relaxed) == rests)
+        return;
+    const double weld = weldOf(vertices);
+    if (std::equal(vertices.begin(), vertices.end(), built[id].begin(), [weld](const Vector3r& one, const Vector3r& other) {
+            return (one - other).squaredNorm() <= weld * weld;
+        }))
+        return;
+    const bool atRest = facet.state->vel == Vector3r::Zero() && facet.state->angVel == Vector3r::Zero();
+    moved.store(atRest ? rests : moves, std::memory_order_relaxed);
+}
+
 void FacetMesh::build(const yade::Scene& scene)
 {
     const auto& all = scene.bodies->body;
+    built.assign(all.size(), BoundaryPoints { Vector3r::Zero(), Vector3r::Zero(), Vector3r::Zero() });
+    builtIn = scene.iter;
+    moved.store(no, std::memory_order_relaxed);
     corners.assign(all.size(), Corners { -1, -1, -1 });
     first.clear();
     facets.clear();
@@ -134,6 +93,7 @@ void FacetMesh::build(const yade::Scene& scene)
             continue;
         const BoundaryPoints vertices = verticesOf(*all[id]->shape, *all[id]->state, Vector3r::Zero());
         placed.push_back({ id, vertices, weldOf(vertices) });
+        built[id] = vertices;
         largest = std::isfinite(placed.back().weld) ? std::max(largest, placed.back().weld) : largest;
     }
 

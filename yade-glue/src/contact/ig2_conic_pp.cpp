@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 namespace potential_particles {
@@ -245,6 +246,19 @@ bool Ig2_ConicPP_ConicPP_ScGeom::answer(Pair& pair)
     return contact(pair);
 }
 
+void Ig2_ConicPP_ConicPP_ScGeom::lookAtDepth(const Interaction& pair, double rounding, double overlap,
+                                             Counters::Row& counts) noexcept
+{
+    if (!(overlap > rounding))
+        return;
+    counts.add(Count::deepOverlaps);
+    if (!saidDepth.exchange(true, std::memory_order_relaxed))
+        std::fprintf(stderr,
+                     "potential_particles: step %ld: bodies %d and %d overlap by %.3g of the rounding radius r: start them "
+                     "apart (pack), take a stiffer contact, or a larger r (deepOverlaps of the functor counts on)\n",
+                     scene ? scene->iter : 0L, pair.id1, pair.id2, overlap / rounding);
+}
+
 // The pair is solved as it comes, so there is nothing to reverse: both shapes are of one kind, and
 // body 1 of the interaction is body 1 of the arguments.
 bool Ig2_ConicPP_ConicPP_ScGeom::goReverse(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
@@ -294,6 +308,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
             pair.counts.add(Count::overlapping);
             pair.noteTouching();
             fill(pair, found);
+            lookAtDepth(*pair.interaction, std::min(pair.particle1->rounding(), pair.particle2->rounding()),
+                        found.overlap, pair.counts);
             return true;
         }
         if (held || (given.interactionDistance > 0 && !(found.distance > given.interactionDistance)))

@@ -11,6 +11,7 @@
 #include "registration/class_table.hpp"
 #include "shape/published.hpp"
 
+#include <atomic>
 #include <boost/python/dict.hpp>
 #include <boost/python/list.hpp>
 
@@ -75,8 +76,12 @@ protected:
     void fail(const yade::Interaction& interaction, const yade::State& state1, const yade::State& state2,
               const yade::Vector3r& shift2, const char* why) noexcept;
 
+    // Counts an overlap beyond the rounding radius, and says the first one on stderr.
+    void lookAtDepth(const yade::Interaction& pair, double rounding, double overlap, Counters::Row& counts) noexcept;
+
     Published<AcceptedSettings> accepted;
     Counters counters;
+    std::atomic<bool> saidDepth { false };
 
 private:
     PP_ARCHIVED

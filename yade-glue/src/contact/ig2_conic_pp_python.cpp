@@ -114,6 +114,8 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
           "Patches that were folded, reached into both cores, or missed patchTolerance.");
     count("patchFallbacks", Count::patchFallbacks,
           "Contacts that were given by their point although the patch was asked for: none was found.");
+    count("deepOverlaps", Count::deepOverlaps,
+          "Overlaps beyond the rounding radius r, where contacts are no springs; the first is said on stderr.");
     count("extended", Count::extended, "Pairs answered in extended precision, because doubles did not settle them.");
     count("failures", Count::failures,
           "Failed calls: no answer by the back end asked for, or no valid particle or pose.");

@@ -204,6 +204,8 @@ void Ig2_Facet_ConicPP_ScGeom::eachNeighbour(const FlatPair& pair, const Triangl
     const auto& bodies = scene->bodies->body;
     const Body* const facet = bodies[static_cast<std::size_t>(own.number)].get();
     const Body* const particle = bodies[static_cast<std::size_t>(pair.interaction->id2)].get();
+    if (facet)
+        mesh.see(*facet, verticesOf(*facet->shape, *facet->state, Vector3r::Zero()));
     for (unsigned i = 0; facet && particle && i < 3; ++i) {
         // The facets at an edge are among those around its first vertex.
         if (!liesOn(own, cornersOfEdge(i)))

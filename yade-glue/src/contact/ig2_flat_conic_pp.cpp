@@ -115,6 +115,7 @@ bool Ig2_Flat_ConicPP::contact(FlatPair& pair)
     pair.counts.add(Count::overlapping);
     pair.noteTouching();
     fill(pair, points, found);
+    lookAtDepth(*pair.interaction, pair.particle->rounding(), found.overlap, pair.counts);
     return true;
 }
 

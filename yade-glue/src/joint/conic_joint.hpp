@@ -137,6 +137,17 @@ public:
         visit("bondRim", &P::bondRim, "Corners of the bonded area: y and z in turn, axes of the bond, m.", 1);
         visit("bendingMoment", &P::bendingMoment,
               "Moment of the bond on body 2 across the normal, about the centroid, N m.", 1);
+        visit("heldStiffness", &P::heldStiffness,
+              "What the other joints of its bodies take from this one in the next step: its stiffness across, N/m; 0: it "
+              "is new.",
+              2);
+        visit("heldForce", &P::heldForce, "The same: force of the springs across it, N.", 2);
+        visit("heldNormal", &P::heldNormal, "The same: normal from body 1 to body 2.", 2);
+        visit("heldPoint", &P::heldPoint, "The same: centre of pressure, m.", 2);
+        visit("heldCentroid", &P::heldCentroid, "The same: centroid from there, m.", 2);
+        visit("heldSpread", &P::heldSpread,
+              "The same: second moments xx, yy, zz about the centroid over the area, m^2.", 2);
+        visit("heldSpreadAcross", &P::heldSpreadAcross, "The same: yz, zx, xy.", 2);
     }
 
 private:

@@ -6,6 +6,7 @@
 #include "conic_joint.hpp"
 #include "law2_conic_joint.hpp"
 #include "joint_body.hpp"
+#include "joints_in_step.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
 
 #include "plugin-common/joint_law.hpp"
@@ -38,7 +39,13 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
                     other = movingBody(*scene, interaction.id2, shift);
     phys.rememberEnergyAlong();
     const JointParameters parameters = phys.parameters();
-    JointLaw law(parameters, phys, one, other, scene->dt);
+    JointsInStep& joints = JointsInStep::all();
+    joints.refresh(*scene);
+    const bool isHeld1 = one.mass.isHeld(), isHeld2 = other.mass.isHeld();
+    const JointSides sides = parameters.dampingRatio > 0
+        ? joints.sides(*scene, interaction, phys, shift, isHeld1, isHeld2)
+        : JointSides {};
+    JointLaw law(parameters, phys, one, other, sides, scene->dt);
 
     const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
     const auto posed = [&](int which) {
@@ -62,6 +69,7 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
             geom.normal = law.forces().normal;
         }
     }
+    joints.note(*scene, interaction, phys, shift, isHeld1, isHeld2);
     phys.take(law.forces());
     // One force a body: in which order threads add up more of them is left to chance.
     if (holds || touches) {

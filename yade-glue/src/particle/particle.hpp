@@ -60,6 +60,8 @@ public:
     // Throws std::invalid_argument with the refusal when there is no handle.
     const pp_particle* require() const;
     double boundingRadius() const { return radius; }
+    // Beyond an overlap of this a contact is no spring: r, or the radius of a ball.
+    double rounding() const { return definition.k < 1 ? definition.r : definition.R; }
     const Support& support() const { return reaches; }
 
     const Definition definition;

@@ -3,7 +3,7 @@
 import numpy as np
 import yade
 
-from ..bodies import image_shift, is_free
+from ..bodies import image_shift, into_cell, is_free
 from . import vtk_files
 
 # The widest tube's radius, over the median length of lines; sides of a tube.
@@ -22,7 +22,7 @@ def branch(contact):
             place = yade.Vector3(body.state.pos)
             if number == contact.id2:
                 place += image_shift(contact)
-        ends.append(place)
+        ends.append(place + into_cell(yade.O.bodies[contact.id1]))
     return ends
 
 

@@ -6,6 +6,7 @@ from dataclasses import dataclass, fields
 import numpy as np
 import yade
 
+from ..bodies import into_cell
 from .mesh import mesh, rotation_matrix
 
 # A point's normal that differs from its triangle's by more is an edge, not a bend.
@@ -85,7 +86,7 @@ def drawn(bodies, meshes):
         if isinstance(shape, yade.Wall):
             walls.append(body)
         elif local is not None:
-            placed = copies(local, [body.state.pos], [rotation_matrix(body.state.ori)], [shape.color], [body.id])
+            placed = copies(local, [body.state.pos + into_cell(body)], [rotation_matrix(body.state.ori)], [shape.color], [body.id])
             (boundaries if is_boundary(shape) else parts).append(placed)
         elif shape is not None and not body.isClump:
             _tell(type(shape).__name__)

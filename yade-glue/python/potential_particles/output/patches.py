@@ -6,7 +6,7 @@ import numpy as np
 import yade
 
 from .. import _glue
-from ..bodies import image_shift
+from ..bodies import image_shift, into_cell
 from .drawn import Rows
 from .mesh import rotation_matrix
 
@@ -34,10 +34,11 @@ def patches(contacts):
 
     Between flat faces the corners of a patch are exact, and the pressure is linear but for the rounding of the edges.
     """
-    return Patches.together([
-        _bond(number, contact) if getattr(contact.phys, "bonded", False) else _patch(number, contact)
-        for number, contact in enumerate(contacts)
-    ])
+    parts = [_bond(number, contact) if getattr(contact.phys, "bonded", False) else _patch(number, contact)
+             for number, contact in enumerate(contacts)]
+    # As body 1 is drawn.
+    return Patches.together([Patches(part.corners + np.array(into_cell(yade.O.bodies[contact.id1])), part.pressure,
+                                     part.contacts) for part, contact in zip(parts, contacts)])
 
 
 def _patch(number, contact):

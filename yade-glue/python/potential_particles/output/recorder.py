@@ -6,6 +6,7 @@ import sys
 import numpy as np
 import yade
 
+from ..bodies import into_cell
 from . import chains, vtk_files
 from .drawn import ShapeMeshes, Triangles, drawn
 from .patches import Patches, patches
@@ -31,7 +32,8 @@ class Recorder:
     is the centre of pressure. <name>.chains.<step>.vtp has the same contacts as lines between the centres of their
     bodies, from wall to centre at walls: force chains (in ParaView: Tube, by `push`, the normal force, above 0 where
     bodies push). Where a contact functor has patch=True there is <name>.patches.<step>.vtp, too, with its series: the
-    contact patches and bonds as triangles with pressure (Pa, at their corners), id1 and id2.
+    contact patches and bonds as triangles with pressure (Pa, at their corners), id1 and id2. In a periodic cell all is
+    drawn where the centres of the bodies lie in the cell, and <name>.cell.<step>.vtp has its edges.
     tolerance: of the meshes of particles (see `mesh`). ids: of the bodies that are wanted; without them, all.
     On several ranks (potential_particles.mpi) it is to be called by all of them, between two calls of mpi.run; rank 0
     writes.
@@ -40,7 +42,7 @@ class Recorder:
     def __init__(self, name, tolerance=0.02, ids=None):
         self.name, self.ids = os.fspath(name), ids
         self.meshes = ShapeMeshes(tolerance)
-        self.frames = {"bodies": [], "contacts": [], "chains": [], "patches": []}
+        self.frames = {"bodies": [], "contacts": [], "chains": [], "patches": [], "cell": []}
         os.makedirs(os.path.dirname(self.name) or ".", exist_ok=True)
 
     def __call__(self):
@@ -57,6 +59,8 @@ class Recorder:
         of_bodies, of_contacts = (np.concatenate([part[i] for part in parts]) for i in (1, 2))
         self._write("bodies", self._bodies(triangles, _columns(of_bodies, _BODY)))
         columns = _columns(of_contacts, _CONTACT)
+        if yade.O.periodic:
+            self._write("cell", vtk_files.lines(_cell_edges()))
         self._write("chains", chains.lines(columns))
         if wanted:
             first = np.cumsum([0] + [len(part[2]) for part in parts])
@@ -104,6 +108,15 @@ def _here():
     return 0, [body for body in yade.O.bodies if body is not None], contacts, lambda value: [value]
 
 
+def _cell_edges():
+    """The twelve edges of the periodic cell, (12, 2, 3)."""
+    sides = np.array([[yade.O.cell.hSize[i, j] for i in range(3)] for j in range(3)])
+    corners = np.array([(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)])
+    pairs = [(one, other) for one in corners for other in corners if (other - one).sum() == 1
+             and (other - one).min() >= 0]
+    return np.array(pairs) @ sides
+
+
 def _with_patches():
     """Whether a contact functor of the scene finds patches."""
     return any(getattr(functor, "patch", False) for engine in yade.O.engines if hasattr(engine, "geomDispatcher")
@@ -119,7 +132,8 @@ def _contact(contact, rank):
     geometry, physics = contact.geom, contact.phys
     begin, end = chains.branch(contact)
     forces = [getattr(physics, name, (0.0, 0.0, 0.0)) for name in ("normalForce", "shearForce")]
-    return (*geometry.contactPoint, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1,
+    point = geometry.contactPoint + into_cell(yade.O.bodies[contact.id1])  # as body 1 is drawn
+    return (*point, *geometry.normal, geometry.penetrationDepth, *forces[0], *forces[1], contact.id1,
             contact.id2, *begin, *end)
 
 

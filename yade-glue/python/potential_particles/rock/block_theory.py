@@ -219,5 +219,6 @@ def by_set(given, name, most=math.inf):
         for entry, value in given.items()
     }
     if None not in values:
-        raise ValueError(f"{name} has no key None, for joints of other entries and for planes that are no joints")
+        raise ValueError(f"{name} has no key None, for joints of other entries and for planes that are no joints: add "
+                         f"{name}[None], of which no use is made where there are none")
     return lambda entry: values.get(int(entry), values[None])
