@@ -41,8 +41,8 @@ fn lintel(friction: f64, thrust: f64) -> Scene {
     Scene { bodies, contacts: (0..6).map(joint).collect() }
 }
 
-/// Nothing presses it to begin with: it falls. A thrust H holds it by friction at both ends, 2 μ H over its weight, unless
-/// it turns: H h/2 at a hinge carries less than its moment.
+/// Nothing presses it to begin with: it falls. A thrust H holds it by friction at both ends, 2 μ H over its weight,
+/// unless it turns.
 #[test]
 fn a_lintel_stands_by_its_thrust() {
     assert!(!stands(&lintel(0.6, 0.0), Flow::NonDilatant).unwrap().stands);
@@ -121,8 +121,8 @@ fn torsion_of_a_square() {
     assert!((0.96 * 0.3826 - 1e-3..0.3826).contains(&found), "{found}");
 }
 
-/// A small stone on a large one, both pushed: each slides at μ, whatever its size and weight. And live loads of any size
-/// beside the dead ones.
+/// A small stone on a large one, both pushed: each slides at μ, whatever its size and weight. And live loads of any
+/// size beside the dead ones.
 #[test]
 fn ratios_of_size_weight_and_load() {
     for (side, weight) in [(1e-2, 1e-6), (1e-3, 1e-9), (1.0, 1e-8)] {

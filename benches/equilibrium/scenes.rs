@@ -68,8 +68,8 @@ pub fn wall(width: usize, rows: usize, friction: f64) -> Scene {
 /// Widths of the bricks of each course, negative where there is an opening.
 type Courses = Vec<Vec<f64>>;
 
-/// The walls 1 to 3 of Ferris and Tin-Loi (2001), Int. J. Solids Struct. 38, bricks of 0.4 by 0.175 m, friction 0.65; the
-/// third has a window.
+/// The walls 1 to 3 of Ferris and Tin-Loi (2001), Int. J. Solids Struct. 38, bricks of 0.4 by 0.175 m, friction 0.65;
+/// the third has a window.
 pub fn ferris_tin_loi(wall: usize) -> Scene {
     let [even, odd] = [vec![0.5, 1.0, 1.0, 1.0, 1.0, 0.5], vec![1.0; 5]];
     let plain = |rows: usize| -> Courses { (0..rows).map(|row| [&even, &odd][row % 2].clone()).collect() };

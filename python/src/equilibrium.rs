@@ -209,8 +209,8 @@ impl PyScene {
         self.answer(py, |scene| library::stands(scene, flow(dilatant)))
     }
 
-    /// The largest multiple of the live loads that can be borne, and its bound. dilatant=True: the bound alone, with its
-    /// forces and mechanism, of joints that open as they slip.
+    /// The largest multiple of the live loads that can be borne, and its bound. dilatant=True: the bound alone, with
+    /// its forces and mechanism, of joints that open as they slip.
     #[pyo3(signature = (*, dilatant=false))]
     fn load_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
         self.answer(py, |scene| library::load_factor(scene, flow(dilatant)))

@@ -1,7 +1,7 @@
 //! The law of joints at a point of a contact, without memory.
 //!
-//! With u the displacement of the second body relative to the first, k_n and k_t the stiffness of the point, and n, t the
-//! force on the second body along the normal and across it:
+//! With u the displacement of the second body relative to the first, k_n and k_t the stiffness of the point, and n, t
+//! the force on the second body along the normal and across it:
 //!
 //! ```text
 //! n = −k_n u_n + n₀, at least −T;   t = −k_t u_t + t₀, cut off at |t| = μ n + C;   T = min(σ a, C/μ),  C = c a

@@ -134,8 +134,8 @@ fn begin(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, Equil
     raised(drift, State { at: Demand { strength: used, ..state.at }, ..state }, unknown)
 }
 
-/// Where the path turns back sharply: what bodies do under a little more load, which is to come to rest elsewhere, or to
-/// go along a mechanism, on which a state of rest is looked for.
+/// Where the path turns back sharply: what bodies do under a little more load. They come to rest elsewhere, or go along
+/// a mechanism, on which a state of rest is then looked for.
 fn raised(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, EquilibriumError> {
     for raise in RAISED {
         let more = unknown.sense() * raise * unknown.of(state.at).abs().max(raise);

@@ -1,7 +1,7 @@
 //! One cone program of associated flow, solved by clarabel.
 //!
-//! The unknowns are the velocities v of the free bodies; the forces at the points are the multipliers of its cones. With
-//! u the velocity of the second body relative to the first at a point, u_n along the normal and u_t across it:
+//! The unknowns are the velocities v of the free bodies; the forces at the points are the multipliers of its cones.
+//! With u the velocity of the second body relative to the first at a point, u_n along the normal and u_t across it:
 //!
 //! ```text
 //! minimise    −w·v + Σ (C y + T (u_n − m y)) + Σ ½ |q|²    over v, y, q  (q in the question whether it stands alone)
@@ -11,10 +11,10 @@
 //! ```
 //!
 //! Optimality of v is E f + w + φ w' = 0, the equilibrium of all bodies, with φ the multiplier of the normalisation:
-//! the largest φ or, with the signs of its row turned, the least. Optimality of q is f = q: the forces of the least norm.
-//! The program has 6 unknowns a body, where the one in the forces has 3 a point, and eliminating its cones leaves a
-//! matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the row of n adds nothing: then y = (u_n + q_n)/m.
-//! Points without cohesion and tension that are no corners add nothing and are left out.
+//! the largest φ or, with the signs of its row turned, the least. Optimality of q is f = q: the forces of the least
+//! norm. The program has 6 unknowns a body, where the one in the forces has 3 a point, and eliminating its cones leaves
+//! a matrix with the pattern of the contacts. Where T m ≥ C and C' = 0, the row of n adds nothing: then
+//! y = (u_n + q_n)/m. Points without cohesion and tension that are no corners add nothing and are left out.
 
 use super::assembly::{Assembly, Joint, Point};
 use super::error::EquilibriumError;

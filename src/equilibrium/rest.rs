@@ -1,8 +1,8 @@
 //! States of rest: where the forces of the law of joints balance the loads.
 //!
-//! With R(v) the forces left on the bodies at displacements v, bodies drift in a viscous medium of drag ε W, v' = R/(ε W),
-//! by linearly implicit steps (D + ε W) δ = R, D = −∂R/∂v. A step is taken if R after it is what the linear law says,
-//! nearly; ε falls where it is, and grows where it is not. Where a state exists the steps become those of Newton's
+//! With R(v) the forces left on the bodies at displacements v, bodies drift in a viscous medium of drag ε W, W the
+//! diagonal of the stiffness, by linearly implicit steps (D + ε W) δ = R, D = −∂R/∂v. A step is taken if R after it is
+//! nearly what the linear law says; ε falls where it is, and grows where it is not. Where a state exists the steps become those of Newton's
 //! method; where none does, v grows by 1/ε along the mechanism.
 
 use super::answer::Demand;
@@ -132,8 +132,8 @@ impl<'a> Drift<'a> {
         v.chunks(6).zip(self.weights.chunks(6)).zip(sizes).map(of).fold(0.0, f64::max)
     }
 
-    /// Drifts to rest. With an unknown parameter v keeps its part along `across`. `drag`: the first ε; `most` steps; bodies are
-    /// gone when displacements have grown `far` times.
+    /// Drifts to rest. With an unknown parameter v keeps its part along `across`. `drag`: the first ε; `most` steps;
+    /// bodies are gone when displacements have grown `far` times.
     pub fn settle(
         &mut self,
         state: &mut State,

@@ -61,7 +61,7 @@ def factor_by_simulation(question="strength", push=None, first=None, tolerance=0
     yade.O.saveTmp("factor_by_simulation")
     bar = _bar(progress)
     try:
-        while len(runs) < MOST_RUNS and not high - low <= tolerance * high:
+        while len(runs) < MOST_RUNS and (math.isinf(high) or high - low > tolerance * high):
             factor = _next(low, high, positive(first, "first"), tolerance, runs)
             if factor is None:
                 break
