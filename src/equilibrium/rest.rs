@@ -2,8 +2,8 @@
 //!
 //! With R(v) the forces left on the bodies at displacements v, bodies drift in a viscous medium of drag ε W, W the
 //! diagonal of the stiffness, by linearly implicit steps (D + ε W) δ = R, D = −∂R/∂v. A step is taken if R after it is
-//! nearly what the linear law says; ε falls where it is, and grows where it is not. Where a state exists the steps become those of Newton's
-//! method; where none does, v grows by 1/ε along the mechanism.
+//! nearly what the linear law says; ε falls where it is, and grows where it is not. Where a state exists the steps
+//! become those of Newton's method; where none does, v grows by 1/ε along the mechanism.
 
 use super::answer::Demand;
 use super::assembly::{Assembly, Joint, Point, largest};
