@@ -42,7 +42,7 @@ class Block(unittest.TestCase):
             scene.stands()
         with self.assertRaisesRegex(ValueError, "however small friction"):
             block(0.5, 0.5).strength_factor()
-        with self.assertRaisesRegex(ValueError, "friction=35.0 is a coefficient.*35 degrees are 0.7002"):
+        with self.assertRaisesRegex(ValueError, "friction=35 is a coefficient.*35 degrees are 0.7002"):
             block(0.5, 35.0)
 
 
