@@ -319,7 +319,9 @@ fn slopes_of_random_sets() {
                     for force in forces.by_ref().take(contact.corners.len()) {
                         let n = force.dot(&normal);
                         let beyond = (force - n * normal).norm() - contact.friction / found.factor * n;
-                        assert!(n >= -1e-6 * mean && beyond <= 1e-4 * mean, "{n} {beyond} {mean}");
+                        // A factor at which forces clamp is known to a part of it, and with it their strength.
+                        let rounding = 1e-4 * mean + 1e-6 * n;
+                        assert!(n >= -1e-6 * mean && beyond <= rounding, "{n} {beyond} {mean}");
                     }
                 }
                 answered += 1;

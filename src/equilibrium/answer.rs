@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 #[derive(Clone, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Equilibrium {
-    /// Whether the scene comes to rest under its dead loads, for a factor: with any factor.
+    /// Whether the scene comes to rest under its dead loads; of a factor: whether there is one, however small.
     pub stands: bool,
     /// Whether any forces within the strength hold it, where joints open by tan φ times their slip: the associated
     /// answer. Where it is false, nothing can hold the scene.

@@ -16,6 +16,8 @@ const EXCESS: f64 = 1e-5;
 const BALANCED: f64 = 1e-6;
 /// From one strength to the next where a bracket has one end alone.
 const STRIDE: f64 = 5.0;
+/// A factor is proved if the scene falls with strength that is weaker by this part.
+const WEAKER: f64 = 1e-4;
 /// Programs after which each halves the bracket, and most programs.
 const HALVING: u32 = 30;
 const MOST: u32 = 100;
@@ -74,14 +76,13 @@ pub(super) fn strength(assembly: &Assembly) -> Result<Equilibrium, EquilibriumEr
     // Before the first program n is unknown: strength is the same at all points.
     let mut forces = vec![Vector3::x(); assembly.points.len()];
     let (mut kappa, mut bracket) = (0.0, [0.0, f64::INFINITY]);
-    for programs in 1..=MOST {
+    for programs in 1..=HALVING {
         let cone = |((_, point), force): ((_, &Point), &Vector3<f64>)| {
             let (of, normal) = (&point.strength, force.x.max(-point.strength.tension));
             let (slope, growth) = (kappa * of.friction, of.cohesion + of.friction * normal);
             Cone { slope, base: kappa * of.cohesion - kappa * growth, growth, tension: of.tension }
         };
         let cones: Vec<Cone> = assembly.each_point().zip(&forces).map(cone).collect();
-        let mut halves = programs > HALVING;
         match solve(assembly, &cones, Goal::Strength) {
             Ok(Outcome::Solved(solved)) if solved.factor > SETTLED => {
                 if kappa > 0.0 {
@@ -90,35 +91,48 @@ pub(super) fn strength(assembly: &Assembly) -> Result<Equilibrium, EquilibriumEr
                 let at = Demand { live: 0.0, strength: solved.factor };
                 let found = Equilibrium::standing(assembly, &solved.forces, at, programs);
                 if (solved.factor - kappa).abs() <= SETTLED * solved.factor && found.excess <= EXCESS {
+                    // Beside large forces of the last program φ says little.
+                    let less = solved.factor * (1.0 - WEAKER);
+                    if held(assembly, less, programs).is_some() {
+                        return halved(assembly, [0.0, less], programs);
+                    }
                     return answer(assembly, &solved, at, 1.0 / solved.factor, programs);
                 }
                 // Far below the limit φ says little: forces that stand with it may be of any size.
                 let most = if bracket[0] > 0.0 { STRIDE * STRIDE * kappa } else { f64::INFINITY };
                 (kappa, forces) = (solved.factor.min(most), solved.forces);
-                halves |= kappa >= bracket[1];
+                if kappa >= bracket[1] {
+                    return halved(assembly, bracket, programs);
+                }
             }
             Ok(Outcome::Falls(velocities)) if kappa == 0.0 => {
                 // Where strength may grow as it likes the motion does not slide at all.
                 return falls(assembly, &velocities, 0.0, programs);
             }
-            Ok(Outcome::Falls(_)) => (bracket[0], halves) = (kappa, true),
+            Ok(Outcome::Falls(_)) => return halved(assembly, [kappa, bracket[1]], programs),
             Ok(_) if kappa == 0.0 => return Err(EquilibriumError::StandsWithoutStrength),
             Err(error) if kappa == 0.0 => return Err(error),
-            // Friction of this κ clamps blocks with forces of any size, or this κ is too near to that for clarabel:
-            // forces of the least norm are found there, too. If they are not, it counts as too weak.
-            unknown => {
-                let stands = unknown.is_ok() || matches!(rest(assembly, kappa), Ok(Outcome::Solved(_)));
-                (bracket[usize::from(stands)], halves) = (kappa, true);
-            }
-        }
-        if halves {
-            match inside(bracket) {
-                Some(next) => kappa = next,
-                None => return clamped(assembly, bracket[1], programs),
-            }
+            // Friction of this κ clamps blocks with forces of any size.
+            Ok(_) => return halved(assembly, [bracket[0], kappa], programs),
+            // This κ is too near to that for clarabel.
+            Err(_) => return halved(assembly, bracket, programs),
         }
     }
-    Err(EquilibriumError::NotFound { stands: 1.0 / bracket[1], bound: 1.0 / bracket[0] })
+    halved(assembly, bracket, HALVING)
+}
+
+/// The factor between a κ with which no forces hold the scene and one with which forces of the least norm do, by halving.
+/// Where clarabel finds neither, κ counts as too weak.
+fn halved(assembly: &Assembly, mut bracket: [f64; 2], mut programs: u32) -> Result<Equilibrium, EquilibriumError> {
+    while let Some(kappa) = inside(bracket) {
+        let stands = matches!(rest(assembly, kappa), Ok(Outcome::Solved(_)));
+        bracket[usize::from(stands)] = kappa;
+        programs += 1;
+        if programs > MOST {
+            return Err(EquilibriumError::NotFound { stands: 1.0 / bracket[1], bound: 1.0 / bracket[0] });
+        }
+    }
+    clamped(assembly, bracket[1], programs)
 }
 
 /// The state with this part κ of the strength, below which forces that clamp blocks grow without bound.
@@ -127,13 +141,18 @@ fn clamped(assembly: &Assembly, kappa: f64, programs: u32) -> Result<Equilibrium
         return Err(EquilibriumError::StandsWithoutStrength);
     }
     // A little more strength, until the least forces are small enough to be found.
-    for margin in [1.0, 10.0, 100.0].map(|of| of * EXCESS) {
-        let kappa = kappa * (1.0 + margin);
-        if let Ok(Outcome::Solved(solved)) = rest(assembly, kappa) {
-            return answer(assembly, &solved, Demand { live: 0.0, strength: kappa }, 1.0 / kappa, programs);
-        }
+    let margins = [1.0, 10.0, 100.0, 1000.0].map(|of| 1.0 + of * EXCESS);
+    if let Some(found) = margins.iter().find_map(|margin| held(assembly, margin * kappa, programs)) {
+        return Ok(Equilibrium { factor: 1.0 / kappa, bound: 1.0 / kappa, ..found });
     }
-    Err(EquilibriumError::NotConverged { status: "clamped forces grow without bound".into() })
+    Err(EquilibriumError::NotFound { stands: 1.0 / kappa, bound: 1.0 / kappa })
+}
+
+/// The forces of the least norm with this part κ of the strength; `None` if there are none, or clarabel does not find
+/// them.
+fn held(assembly: &Assembly, kappa: f64, programs: u32) -> Option<Equilibrium> {
+    let Ok(Outcome::Solved(solved)) = rest(assembly, kappa) else { return None };
+    answer(assembly, &solved, Demand { live: 0.0, strength: kappa }, 1.0 / kappa, programs).ok()
 }
 
 /// A κ inside the bracket; `None` once its ends agree.

@@ -6,7 +6,7 @@
 
 use super::answer::Demand;
 use super::error::EquilibriumError;
-use super::rest::{Drift, End, FAR, State, Unknown, dot};
+use super::rest::{Drift, End, State, Unknown, dot};
 
 /// The first step, as a part of the displacements there are.
 const FIRST: f64 = 0.05;
@@ -70,7 +70,7 @@ pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result
         let v = way.state.v.iter().zip(&way.along).map(|(v, along)| v + way.length * along).collect();
         let mut next = State { v, at: unknown.moved(way.state.at, way.length * way.by) };
         let before = drift.stiffness.solves;
-        if drift.settle(&mut next, unknown, &across, STEP_DRAG, (OF_STEP, FAR)) != End::Rest {
+        if drift.settle(&mut next, unknown, &across, STEP_DRAG, (OF_STEP, f64::INFINITY)) != End::Rest {
             way.length *= 0.25;
             if way.length * dot(&way.along, &across).sqrt() < SHORT * size(drift, &way.state) {
                 way = raised(drift, best, unknown)?;
@@ -147,7 +147,7 @@ fn raised(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, Equi
         }
         let along: Vec<f64> = next.v.iter().zip(&state.v).map(|(next, v)| next - v).collect();
         let across = drift.metric(&along, &next);
-        if drift.settle(&mut next, unknown, &across, RAISED_DRAG, (OF_DRIFT, FAR)) == End::Rest {
+        if drift.settle(&mut next, unknown, &across, RAISED_DRAG, (OF_DRIFT, f64::INFINITY)) == End::Rest {
             let along = next.v.iter().zip(&state.v).map(|(next, v)| next - v).collect();
             return Ok(Way { by: 0.0, length: 1.0, along, state: next });
         }

@@ -5,7 +5,7 @@ use super::assembly::Assembly;
 use super::bound;
 use super::error::EquilibriumError;
 use super::path::{DRIFT_DRAG, Limit, OF_DRIFT, limit};
-use super::rest::{Drift, End, FAR, State, Unknown};
+use super::rest::{Drift, End, State, Unknown};
 use super::scene::Scene;
 
 /// How a contact opens as it slides.
@@ -54,7 +54,11 @@ pub fn load_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, Equilibrium
     if assembly.live.iter().all(|load| *load == 0.0) {
         return Err(EquilibriumError::NoLiveLoad);
     }
-    let associated = bound::load(&assembly);
+    // Where no forces bear the dead loads alone there is no load to begin with.
+    let associated = match bound::stands(&assembly) {
+        Ok(found) if !found.stands => Ok(found),
+        _ => bound::load(&assembly),
+    };
     if flow == Flow::Associated {
         return associated;
     }
@@ -82,16 +86,22 @@ pub fn strength_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, Equilib
     let mut motion = Vec::new();
     // What falls whatever its strength is not tried with more.
     let falls = matches!(&associated, Ok(found) if !found.stands);
+    let mut undecided = None;
     for doubled in 0..if falls { 1 } else { STRONGER } {
-        match from_nothing(&mut drift, Demand { live: 0.0, strength: 2.0_f64.powi(doubled) })? {
-            Begin::Rest(start) => {
+        match from_nothing(&mut drift, Demand { live: 0.0, strength: 2.0_f64.powi(doubled) }) {
+            Ok(Begin::Rest(start)) => {
                 return at_limit(&mut drift, start, Unknown::Strength, associated, |part| 1.0 / part);
             }
-            Begin::Falls(found) if motion.is_empty() => motion = found,
-            Begin::Falls(_) => {}
+            Ok(Begin::Falls(found)) if motion.is_empty() => motion = found,
+            Ok(Begin::Falls(_)) => {}
+            Err(error) if motion.is_empty() => return Err(error),
+            // It falls with the given strength: with more it may stand.
+            Err(_) => {
+                undecided = Some(EquilibriumError::NotFound { stands: 0.0, bound: bound_of(&associated).min(1.0) })
+            }
         }
     }
-    fallen(&drift, &motion, associated)
+    undecided.map_or_else(|| fallen(&drift, &motion, associated), Err)
 }
 
 enum Begin {
@@ -103,7 +113,7 @@ enum Begin {
 /// The state that the loads lead to from nothing.
 fn from_nothing(drift: &mut Drift, at: Demand) -> Result<Begin, EquilibriumError> {
     let mut state = State { v: vec![0.0; drift.assembly.dead.len()], at };
-    match drift.settle(&mut state, Unknown::Displacements, &[], DRIFT_DRAG, (OF_DRIFT, FAR)) {
+    match drift.settle(&mut state, Unknown::Displacements, &[], DRIFT_DRAG, (OF_DRIFT, f64::INFINITY)) {
         End::Rest => Ok(Begin::Rest(state)),
         End::Gone => Ok(Begin::Falls(state.v)),
         End::Undecided => {
@@ -131,6 +141,7 @@ fn bound_of(associated: &Result<Equilibrium, EquilibriumError>) -> f64 {
     match associated {
         Ok(found) => found.bound,
         Err(EquilibriumError::Unlimited | EquilibriumError::StandsWithoutStrength) => f64::INFINITY,
+        Err(EquilibriumError::NotFound { bound, .. }) => *bound,
         Err(_) => f64::NAN,
     }
 }
@@ -147,7 +158,7 @@ fn at_limit(
     let Limit { parameter, state, mechanism } = limit(drift, start, unknown).map_err(|error| match error {
         EquilibriumError::NotFound { stands, .. } => EquilibriumError::NotFound { stands: factor(stands), bound },
         // A path without end is one only if no bound ends it.
-        _ if bound.is_finite() => EquilibriumError::NotFound { stands: bound, bound },
+        _ if bound.is_finite() => EquilibriumError::NotFound { stands: 0.0, bound },
         other => other,
     })?;
     let mechanism = drift.assembly.velocities(&mechanism);

@@ -15,9 +15,11 @@ use nalgebra::Vector3;
 pub(super) const AT_REST: f64 = 1e-8;
 /// Forces beyond this many times all loads together clamp blocks: what is left is then judged by the loads.
 const CLAMPED: f64 = 10.0;
-/// Displacements are far beyond this many times those of elastic bodies under the forces on them. Rounding of these
-/// displacements leaves forces of [`AT_REST`].
-pub(super) const FAR: f64 = 1e8;
+/// Bodies go without end if so many steps in a row, of a drag that would not hold the softest joints, leave R at least
+/// KEEPS of its size: elastic bodies would use it up.
+const GOING: u32 = 3;
+const SOFTEST: f64 = 1e-11;
+const KEEPS: f64 = 0.9;
 /// Share of R by which a step may miss it.
 const MISSED: f64 = 0.6;
 /// Least drag: with less the rounding of the stiffness would hold a mechanism.
@@ -107,7 +109,7 @@ impl<'a> Drift<'a> {
         let force = |(joint, point): (&Joint, &Point)| point.strength.force(&joint.slip(point, v), at.strength);
         let (left, mut sizes) = self.assembly.left(self.assembly.each_point().map(force), at.live);
         let total: f64 = self.assembly.loads(at.live).chunks(6).map(largest).sum();
-        sizes.iter_mut().for_each(|size| *size = size.clamp(f64::EPSILON, CLAMPED * total));
+        sizes.iter_mut().for_each(|size| *size = size.clamp(f64::EPSILON, CLAMPED * total.max(1.0)));
         (left, sizes)
     }
 
@@ -143,12 +145,13 @@ impl<'a> Drift<'a> {
         (most, far): (u32, f64),
     ) -> End {
         let (mut left, mut sizes) = self.left(&state.v, state.at);
+        let mut going = 0;
         let limit = self.farthest(&state.v, &sizes).max(1.0) * far;
         for _ in 0..most {
             if !(relative(&left, &sizes) >= AT_REST) {
                 return if left.iter().all(|part| part.is_finite()) { End::Rest } else { End::Undecided };
             }
-            if unknown == Unknown::Displacements && self.farthest(&state.v, &sizes) > limit {
+            if unknown == Unknown::Displacements && (going >= GOING || self.farthest(&state.v, &sizes) > limit) {
                 return End::Gone;
             }
             let (assembly, weights) = (self.assembly, &self.weights);
@@ -174,6 +177,8 @@ impl<'a> Drift<'a> {
                 let missed: Vec<f64> = next.iter().enumerate().map(|(i, next)| next - linear(i)).collect();
                 let missed = norm(&missed, &sizes) / (part * size);
                 if missed < MISSED {
+                    let is_going = drag <= SOFTEST && part == 1.0 && norm(&next, &sizes) > KEEPS * size;
+                    going = if is_going { going + 1 } else { 0 };
                     (*state, left, sizes) = (State { v, at }, next, next_sizes);
                     break Some(missed);
                 }

@@ -11,6 +11,9 @@ use faer::{Conj, Mat, Par};
 use nalgebra::{Matrix6, Matrix6x3};
 use std::collections::BTreeMap;
 
+/// The least weight of a coordinate of a body, over that of its stiffest one.
+const LEAST_WEIGHT: f64 = 1e-3;
+
 /// The matrix E K Eᵀ + ε W, and its LU factors. It is not symmetric where joints slip.
 pub(super) struct Stiffness {
     pattern: SymbolicSparseColMat<usize>,
@@ -120,6 +123,11 @@ pub(super) fn weights(assembly: &Assembly) -> Vec<f64> {
             let moves = moves(joint, point, end);
             (0..6).for_each(|i| found[6 * body + i] += point.strength.stiffness[0] * moves.row(i).norm_squared());
         }
+    }
+    // A body that touches at one point, or on a line through its centre, turns without resistance.
+    for six in found.chunks_mut(6) {
+        let least = LEAST_WEIGHT * six.iter().copied().fold(0.0, f64::max);
+        six.iter_mut().for_each(|weight| *weight = weight.max(least));
     }
     found
 }
