@@ -56,7 +56,7 @@ struct JointLaw::Region {
 
 JointLaw::Region JointLaw::regionOf(const ContactPatch& patch, const Opposed& opposed, const Vector3d& direction) const
 {
-    Region region { 1, 1, patch.centroid, Vector3d::Zero(), 1 / patch.area * (patch.secondMoment * direction) };
+    Region region { 1, 1, patch.centroid, { 0, 0, 0 }, 1 / patch.area * (patch.secondMoment * direction) };
     if (!(sides.one.stiffness > 0 || sides.other.stiffness > 0))
         return region;
     region.moved += patch.centroid * patch.centroid.dot(direction);

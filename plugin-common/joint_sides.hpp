@@ -66,11 +66,12 @@ public:
             origin = point;
         const Eigen::Vector3d normal = outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal);
         const Nearest nearest = nearestTo(normal);
-        const Sum one(load, point - origin);
         if (count == 0 || (count < most && nearest.cosines[nearest.face] < 1 - sameNormal)) {
-            faces[count++] = { one, normal, 1 };
+            faces[count].normal = normal;
+            faces[count].count = 1;
+            faces[count++].sum.set(load, point - origin);
         } else {
-            faces[nearest.face].sum.add(1, one);
+            faces[nearest.face].sum.add(1, load, point - origin);
             ++faces[nearest.face].count;
         }
     }
@@ -78,42 +79,26 @@ public:
     // What is left without this one, which has been added.
     JointSide without(const JointLoad& load, const Eigen::Vector3d& point, bool outwards) const
     {
-        JointSide side;
-        if (!(load.heldStiffness > 0))
-            return side;
-        side.known = true;
+        JointSide alone;
+        alone.known = load.heldStiffness > 0;
+        if (!(alone.known && count > 0))
+            return alone;
         const Nearest nearest = nearestTo(outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal));
         const Eigen::Vector3d here = point - origin;
+        double shares[most] = {};
+        for (int i = 0; i < count; ++i)
+            if (const double cosine = nearest.cosines[i]; cosine > 0 && !(i == nearest.face && faces[i].count == 1))
+                shares[i] = std::min(1.0, cosine * cosine);
         Sum rest;
-        for (int i = 0; i < count; ++i) {
-            const double cosine = nearest.cosines[i];
-            if (!(cosine > 0) || (i == nearest.face && faces[i].count == 1)) // it is this one
-                continue;
-            const double share = std::min(1.0, cosine * cosine);
-            rest.add(share, faces[i].sum);
-            if (i == nearest.face)
-                rest.add(-share, Sum(load, here));
-        }
-        if (!(rest.stiffness() > rounding * load.heldStiffness))
-            return side;
-        const double over = 1 / load.heldStiffness;
-        side.stiffness = rest.stiffness() * over;
-        for (int i = 0; i < 3; ++i)
-            side.first[i] = (rest.first(i) - rest.stiffness() * here[i]) * over;
-        const auto secondAbout = [&](double second, int i, int j) {
-            return (second - here[i] * rest.first(j)) * over - here[j] * side.first[i];
-        };
-        side.second = { secondAbout(rest.second(0), 0, 0), secondAbout(rest.second(1), 1, 1),
-                        secondAbout(rest.second(2), 2, 2) };
-        side.secondAcross = { secondAbout(rest.secondAcross(0), 1, 2), secondAbout(rest.secondAcross(1), 2, 0),
-                              secondAbout(rest.secondAcross(2), 0, 1) };
-        if (rest.force() > rounding * load.heldForce && load.heldForce > 0) {
-            const double overForce = 1 / load.heldForce;
-            side.force = rest.force() * overForce;
-            for (int i = 0; i < 3; ++i)
-                side.pressed[i] = (rest.pressed(i) - rest.force() * here[i]) * overForce;
-        }
-        return side;
+        rest.set(shares[0], faces[0].sum);
+        for (int i = 1; i < count; ++i)
+            if (shares[i] > 0)
+                rest.add(shares[i], faces[i].sum);
+        if (const double own = shares[nearest.face]; own > 0)
+            rest.add(-own, load, here);
+        if (rest.stiffness() > rounding * load.heldStiffness)
+            return sideOf(rest, load, here);
+        return alone;
     }
 
     void clear() { count = 0; }
@@ -139,24 +124,8 @@ private:
     // About `origin`. Numbers in a row, which the compiler adds up in one loop.
     struct Sum {
         static constexpr int size = 14;
-        double all[size] = {};
+        double all[size];
 
-        Sum() = default;
-        Sum(const JointLoad& load, const Eigen::Vector3d& point)
-        {
-            const double stiffness = load.heldStiffness;
-            const Eigen::Vector3d centroid = point + load.heldCentroid;
-            all[0] = stiffness;
-            all[1] = load.heldForce;
-            for (int i = 0; i < 3; ++i) {
-                all[2 + i] = stiffness * centroid[i];
-                all[5 + i] = load.heldForce * point[i];
-                all[8 + i] = stiffness * load.heldSpread[i] + all[2 + i] * centroid[i];
-            }
-            all[11] = stiffness * load.heldSpreadAcross[0] + all[3] * centroid[2];
-            all[12] = stiffness * load.heldSpreadAcross[1] + all[4] * centroid[0];
-            all[13] = stiffness * load.heldSpreadAcross[2] + all[2] * centroid[1];
-        }
         double stiffness() const { return all[0]; }
         double force() const { return all[1]; }
         double first(int i) const { return all[2 + i]; }
@@ -164,10 +133,48 @@ private:
         double second(int i) const { return all[8 + i]; }
         double secondAcross(int i) const { return all[11 + i]; }
 
+        void set(double share, const Sum& other)
+        {
+            for (int i = 0; i < size; ++i)
+                all[i] = share * other.all[i];
+        }
         void add(double share, const Sum& other)
         {
             for (int i = 0; i < size; ++i)
                 all[i] += share * other.all[i];
+        }
+        void set(const JointLoad& load, const Eigen::Vector3d& point)
+        {
+            each(1, load, point, [](double& sum, double number) { sum = number; });
+        }
+        void add(double share, const JointLoad& load, const Eigen::Vector3d& point)
+        {
+            each(share, load, point, [](double& sum, double number) { sum += number; });
+        }
+
+    private:
+        // One by one: what has just been written one by one is slow to read in pairs.
+        template <class Visit>
+        void each(double share, const JointLoad& load, const Eigen::Vector3d& point, Visit&& visit)
+        {
+            const double k = share * load.heldStiffness, f = share * load.heldForce;
+            const double x = point[0] + load.heldCentroid[0], y = point[1] + load.heldCentroid[1],
+                         z = point[2] + load.heldCentroid[2];
+            const double kx = k * x, ky = k * y, kz = k * z;
+            visit(all[0], k);
+            visit(all[1], f);
+            visit(all[2], kx);
+            visit(all[3], ky);
+            visit(all[4], kz);
+            visit(all[5], f * point[0]);
+            visit(all[6], f * point[1]);
+            visit(all[7], f * point[2]);
+            visit(all[8], k * load.heldSpread[0] + kx * x);
+            visit(all[9], k * load.heldSpread[1] + ky * y);
+            visit(all[10], k * load.heldSpread[2] + kz * z);
+            visit(all[11], k * load.heldSpreadAcross[0] + ky * z);
+            visit(all[12], k * load.heldSpreadAcross[1] + kz * x);
+            visit(all[13], k * load.heldSpreadAcross[2] + kx * y);
         }
     };
     struct Face {
@@ -190,6 +197,29 @@ private:
                 nearest.face = i;
         }
         return nearest;
+    }
+    static JointSide sideOf(const Sum& rest, const JointLoad& load, const Eigen::Vector3d& here)
+    {
+        JointSide side;
+        side.known = true;
+        const double over = 1 / load.heldStiffness;
+        side.stiffness = rest.stiffness() * over;
+        for (int i = 0; i < 3; ++i)
+            side.first[i] = (rest.first(i) - rest.stiffness() * here[i]) * over;
+        const auto secondAbout = [&](double second, int i, int j) {
+            return (second - here[i] * rest.first(j)) * over - here[j] * side.first[i];
+        };
+        side.second = { secondAbout(rest.second(0), 0, 0), secondAbout(rest.second(1), 1, 1),
+                        secondAbout(rest.second(2), 2, 2) };
+        side.secondAcross = { secondAbout(rest.secondAcross(0), 1, 2), secondAbout(rest.secondAcross(1), 2, 0),
+                              secondAbout(rest.secondAcross(2), 0, 1) };
+        if (rest.force() > rounding * load.heldForce && load.heldForce > 0) {
+            const double overForce = 1 / load.heldForce;
+            side.force = rest.force() * overForce;
+            for (int i = 0; i < 3; ++i)
+                side.pressed[i] = (rest.pressed(i) - rest.force() * here[i]) * overForce;
+        }
+        return side;
     }
     template <class Visit> void each(Visit&& visit)
     {
