@@ -55,7 +55,7 @@ struct BondStiffness {
 
 // On body 2, about a point that is said with it.
 struct Wrench {
-    Eigen::Vector3d force = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
+    Eigen::Vector3d force { 0, 0, 0 }, moment { 0, 0, 0 };
 };
 
 // How the ends of a bond lie to each other now.

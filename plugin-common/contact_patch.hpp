@@ -69,11 +69,10 @@ private:
         const double product = 0.5 * (trace * trace - secondMoment.squaredNorm()); // of the two in the plane
         if (!(trace > 0 && area > 0))
             return;
-        const double root = 2 * std::sqrt(std::max(0.0, product));
-        // Ramanujan's perimeter of an ellipse with the half axes a and b, over pi; h = ((a - b)/(a + b))^2.
-        const double h = (trace - root) / (trace + root);
-        const double perimeter = std::sqrt(trace + root) * (1 + 3 * h / (10 + std::sqrt(4 - 3 * h)));
-        const double ofEllipse = 2.0 / 3.0 * perimeter / std::sqrt(trace) * std::sqrt(polarMoment / area);
+        const double root = 2 * std::sqrt(std::max(0.0, product)), whole = trace + root;
+        // Ramanujan's perimeter of an ellipse with the half axes a and b, over pi (a + b); h = ((a - b)/(a + b))^2.
+        const double h = (trace - root) / whole, perimeter = 1 + 3 * h / (10 + std::sqrt(4 - 3 * h));
+        const double ofEllipse = 2.0 / 3.0 * perimeter * std::sqrt(whole * polarMoment / (trace * area));
         twistLever = std::clamp(twistLever, 0.975 * ofEllipse, 1.02 * ofEllipse);
     }
 };

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 
 #include <cmath>
-#include <limits>
 
 namespace potential_particles {
 
@@ -32,13 +31,12 @@ struct JointMemory : Bond, JointLoad {
 
 // How a body opposes impulses.
 struct JointMass {
-    Eigen::Vector3d masses = held(); // along world axes; infinite where it cannot move
-    Eigen::Vector3d moments = held(); // of inertia, along its axes
-    Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+    Eigen::Vector3d overMasses { 0, 0, 0 }; // 1/m along world axes; 0 where it cannot move
+    Eigen::Vector3d overMoments { 0, 0, 0 }; // of inertia, along its axes
+    Eigen::Vector3d centre { 0, 0, 0 };
     Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
 
-    bool isHeld() const { return !(masses.array().isFinite().any() || moments.array().isFinite().any()); }
-    static Eigen::Vector3d held() { return Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity()); }
+    bool isHeld() const { return !((overMasses.array() > 0).any() || (overMoments.array() > 0).any()); }
 };
 
 struct JointBody {
@@ -53,12 +51,7 @@ struct JointBody {
     double mobility(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const
     {
         const Eigen::Vector3d lever = mass.turn.conjugate() * (point - mass.centre).cross(direction);
-        double sum = 0;
-        for (int i = 0; i < 3; ++i)
-            sum += direction[i] * direction[i] / mass.masses[i];
-        for (int i = 0; i < 3; ++i)
-            sum += lever[i] * lever[i] / mass.moments[i];
-        return sum;
+        return direction.cwiseAbs2().dot(mass.overMasses) + lever.cwiseAbs2().dot(mass.overMoments);
     }
 };
 
@@ -94,13 +87,13 @@ struct JointEnergies {
 
 struct JointForces {
     struct Push {
-        Eigen::Vector3d force = Eigen::Vector3d::Zero(), torque = Eigen::Vector3d::Zero(); // torque about the centre
+        Eigen::Vector3d force { 0, 0, 0 }, torque { 0, 0, 0 }; // torque about the centre
     };
     Push onOne, onOther;
-    Eigen::Vector3d point = Eigen::Vector3d::Zero(), normal = Eigen::Vector3d::Zero(); // where the joint is
-    Eigen::Vector3d normalForce = Eigen::Vector3d::Zero(), shearForce = Eigen::Vector3d::Zero();
+    Eigen::Vector3d point { 0, 0, 0 }, normal { 0, 0, 0 }; // where the joint is
+    Eigen::Vector3d normalForce { 0, 0, 0 }, shearForce { 0, 0, 0 };
     double twistMoment = 0, couple = 0; // about the normal: of friction, of the pressure
-    Eigen::Vector3d bendingMoment = Eigen::Vector3d::Zero(); // of a bond, across the normal
+    Eigen::Vector3d bendingMoment { 0, 0, 0 }; // of a bond, across the normal
     double normalStiffness = 0, shearStiffness = 0, twistStiffness = 0; // of the whole joint: force/length, moment
     bool slides = false;
     Wrench damping; // what of all this dashpots do, about `point`

@@ -10,6 +10,17 @@ namespace potential_particles {
 
 using Eigen::Vector3d;
 
+namespace {
+
+    // A symmetric matrix without its diagonal, given as yz, zx, xy, times a vector.
+    Vector3d timesAcross(const Vector3d& across, const Vector3d& vector)
+    {
+        return { across.z() * vector.y() + across.y() * vector.z(), across.z() * vector.x() + across.x() * vector.z(),
+                 across.y() * vector.x() + across.x() * vector.y() };
+    }
+
+} // namespace
+
 // A body swings on all joints of one side at once, of the stiffness K_b, with the circular frequency w,
 //
 //     w^2 = sum over both bodies of K_b u_b,    u_b the mobility at the centre of what it presses there,
@@ -22,7 +33,7 @@ JointLaw::Opposed JointLaw::opposedAt(const Vector3d& point, const Vector3d& dir
     bool known = true;
     const auto of = [&](const JointBody& body, const JointSide& side) {
         const double mobility = body.mobility(
-            side.force > 0 ? Vector3d(point + side.force / (1 + side.force) * side.point) : point, direction);
+            side.force > 0 ? Vector3d(point + 1 / (1 + side.force) * side.pressed) : point, direction);
         known = known && (side.known || !(mobility > 0));
         return mobility * (1 + side.stiffness);
     };
@@ -40,28 +51,29 @@ double JointLaw::dashpotPerArea(double stiffness, double opposed, double area) c
 struct JointLaw::Region {
     double area, force;
     Vector3d centroid, point;
-    Eigen::Matrix3d spread; // second moments about the centroid over the area
+    Vector3d moved; // second moments about the centroid over the area, times a direction
 };
 
-JointLaw::Region JointLaw::regionOf(const ContactPatch& patch, const Opposed& opposed) const
+JointLaw::Region JointLaw::regionOf(const ContactPatch& patch, const Opposed& opposed, const Vector3d& direction) const
 {
-    Region region { 1, 1, patch.centroid, Vector3d::Zero(), patch.secondMoment / patch.area };
+    Region region { 1, 1, patch.centroid, { 0, 0, 0 }, 1 / patch.area * (patch.secondMoment * direction) };
     if (!(sides.one.stiffness > 0 || sides.other.stiffness > 0))
         return region;
-    region.spread += patch.centroid * patch.centroid.transpose();
+    region.moved += patch.centroid * patch.centroid.dot(direction);
     const auto add = [&](const JointSide& side, double share) {
-        const double area = share * side.stiffness, force = share * side.force;
-        region.area += area;
-        region.force += force;
-        region.centroid += area * side.centroid;
-        region.point += force * side.point;
-        region.spread += area * (side.spread + side.centroid * side.centroid.transpose());
+        region.area += share * side.stiffness;
+        region.force += share * side.force;
+        region.centroid += share * side.first;
+        region.point += share * side.pressed;
+        region.moved += share * (side.second.cwiseProduct(direction) + timesAcross(side.secondAcross, direction));
     };
-    add(sides.one, opposed.one / opposed.both());
-    add(sides.other, opposed.other / opposed.both());
-    region.centroid /= region.area;
-    region.point /= region.force;
-    region.spread = (region.spread / region.area - region.centroid * region.centroid.transpose()).eval();
+    const double over = 1 / opposed.both();
+    add(sides.one, opposed.one * over);
+    add(sides.other, opposed.other * over);
+    const double overArea = 1 / region.area;
+    region.centroid *= overArea;
+    region.point *= 1 / region.force;
+    region.moved = region.moved * overArea - region.centroid * region.centroid.dot(direction);
     return region;
 }
 
@@ -73,7 +85,7 @@ void JointLaw::remember(const ContactPatch& patch, const JointMotion& motion)
     memory.heldNormal = motion.normal;
     memory.heldPoint = motion.point;
     memory.heldCentroid = patch.centroid;
-    memory.setSpread(patch.secondMoment / patch.area);
+    memory.setSpread(patch.secondMoment, patch.area);
 }
 
 double JointLaw::energyAlong(const Springs& springs) const
@@ -134,8 +146,8 @@ bool JointLaw::holdAsBond(bool mayEnd)
     memory.heldPoint = all.point;
     memory.heldCentroid = Vector3d::Zero();
     const Eigen::Matrix3d axes = (one.turn * memory.bondTurn1).toRotationMatrix();
-    const Vector3d spread = Vector3d(0, memory.bondMoments.z(), memory.bondMoments.y()) / memory.bondArea;
-    memory.setSpread(axes * spread.asDiagonal() * axes.transpose());
+    const Vector3d moments(0, memory.bondMoments.z(), memory.bondMoments.y());
+    memory.setSpread(axes * moments.asDiagonal() * axes.transpose(), memory.bondArea);
     return true;
 }
 
@@ -299,14 +311,14 @@ Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& mot
     const Opposed opposed = opposedAt(motion.point, n);
     if (!(opposed.both() > 0))
         return {};
-    const Region region = regionOf(patch, opposed);
+    const Vector3d gradient = n.cross(other.spin - one.spin);
+    const Region region = regionOf(patch, opposed, gradient);
     const double half = 0.5 * dashpotPerArea(joint.normalStiffness, opposed.both(), patch.area) * patch.area
         * region.area;
     const Vector3d centre = motion.point + region.centroid;
     const double opening = (other.velocityAt(centre) - one.velocityAt(centre)).dot(n);
-    const Vector3d gradient = n.cross(other.spin - one.spin), moved = region.spread * gradient;
-    const double squared = gradient.dot(moved), scale = squared > 0 ? std::sqrt(3 / squared) : 0;
-    const Vector3d edge = scale * moved;
+    const double squared = gradient.dot(region.moved), scale = squared > 0 ? std::sqrt(3 / squared) : 0;
+    const Vector3d edge = scale * region.moved;
     const double reach = edge.squaredNorm();
     const double off = reach > 0 ? std::clamp((region.point - region.centroid).dot(edge) / reach, -1.0, 1.0) : 0;
     const double spring = 0.5 * joint.normalStiffness * patch.force * region.force, tilting = gradient.dot(edge);
@@ -382,7 +394,8 @@ void JointLaw::dampAlong(const ContactPatch& patch, const JointMotion& motion, c
 {
     const Vector3d& increment = motion.shearIncrement;
     const double spin = turning(motion.normal);
-    const Vector3d direction = increment.norm() > 0 ? Vector3d(increment.normalized()) : motion.normal.unitOrthogonal();
+    const double length = increment.norm();
+    const Vector3d direction = length > 0 ? Vector3d(1 / length * increment) : motion.normal.unitOrthogonal();
     const double perArea = dashpotPerArea(joint.shearStiffness, opposedAt(motion.point, direction).both(), patch.area);
     Vector3d total = all.shearForce - perArea * patch.area / dt * increment;
     double totalTwist = all.twistMoment - perArea * patch.polarMoment * spin;

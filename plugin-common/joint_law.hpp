@@ -89,7 +89,7 @@ private:
     Opposed opposedAt(const Eigen::Vector3d& point, const Eigen::Vector3d& direction) const;
     double dashpotPerArea(double stiffness, double opposed, double area) const;
     struct Region;
-    Region regionOf(const ContactPatch& patch, const Opposed& opposed) const;
+    Region regionOf(const ContactPatch& patch, const Opposed& opposed, const Eigen::Vector3d& direction) const;
     void remember(const ContactPatch& patch, const JointMotion& motion);
     double energyAlong(const Springs& springs) const;
     double turning(const Eigen::Vector3d& normal) const { return (other.spin - one.spin).dot(normal); }

@@ -7,8 +7,6 @@
 #include <Eigen/Core>
 
 #include <algorithm>
-#include <array>
-#include <cstddef>
 
 namespace potential_particles {
 
@@ -22,17 +20,13 @@ struct JointLoad {
     // Second moments about the centroid over the area: xx, yy, zz and yz, zx, xy.
     Eigen::Vector3d heldSpread = Eigen::Vector3d::Zero(), heldSpreadAcross = Eigen::Vector3d::Zero();
 
-    void setSpread(const Eigen::Matrix3d& spread)
+    void setSpread(const Eigen::Matrix3d& moments, double area)
     {
-        heldSpread = spread.diagonal();
-        heldSpreadAcross = { spread(1, 2), spread(2, 0), spread(0, 1) };
-    }
-    Eigen::Matrix3d spread() const
-    {
-        Eigen::Matrix3d matrix;
-        matrix << heldSpread[0], heldSpreadAcross[2], heldSpreadAcross[1], heldSpreadAcross[2], heldSpread[1],
-            heldSpreadAcross[0], heldSpreadAcross[1], heldSpreadAcross[0], heldSpread[2];
-        return matrix;
+        const double over = 1 / area;
+        for (int i = 0; i < 3; ++i) {
+            heldSpread[i] = over * moments(i, i);
+            heldSpreadAcross[i] = over * moments((i + 1) % 3, (i + 2) % 3);
+        }
     }
 
     // Calls `visit(double*, count)` for all numbers.
@@ -47,12 +41,12 @@ struct JointLoad {
 };
 
 // The other joints of a body on one side of it, of the last step: each counts by the square of the cosine between its
-// normal and that of this joint, and not at all beyond a right angle. Places from the centre of pressure of this one.
+// normal and that of this joint, and not at all beyond a right angle. Moments about the centre of pressure of this one.
 struct JointSide {
     bool known = false; // no joint is in its first step
     double stiffness = 0, force = 0; // over those of this joint; 0: it is alone
-    Eigen::Vector3d centroid = Eigen::Vector3d::Zero(), point = Eigen::Vector3d::Zero();
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero(); // second moments about that centroid over the stiffness
+    // First moments of the stiffness and the force, and second ones of the stiffness as in heldSpread.
+    Eigen::Vector3d first { 0, 0, 0 }, pressed { 0, 0, 0 }, second { 0, 0, 0 }, secondAcross { 0, 0, 0 };
 };
 
 struct JointSides {
@@ -63,60 +57,54 @@ struct JointSides {
 // the later ones with that of the nearest normal.
 class JointsOfBody {
 public:
-    // outwards: the normal of the load points away from the body.
-    void add(const JointLoad& load, bool outwards)
+    // point: load.heldPoint as the body sees it; outwards: the normal of the load points away from the body.
+    void add(const JointLoad& load, const Eigen::Vector3d& point, bool outwards)
     {
         if (!(load.heldStiffness > 0))
             return;
         if (count == 0)
-            origin = load.heldPoint;
-        const Sum one = sumOf(load);
+            origin = point;
         const Eigen::Vector3d normal = outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal);
-        Face* const face = faceOf(normal);
-        if (count == 0 || (count < most && face->normal.dot(normal) < 1 - sameNormal))
-            faces[static_cast<std::size_t>(count++)] = { normal, one };
-        else
-            face->sum += one;
+        const Nearest nearest = nearestTo(normal);
+        if (count == 0 || (count < most && nearest.cosines[nearest.face] < 1 - sameNormal)) {
+            faces[count].normal = normal;
+            faces[count].count = 1;
+            faces[count++].sum.set(load, point - origin);
+        } else {
+            faces[nearest.face].sum.add(1, load, point - origin);
+            ++faces[nearest.face].count;
+        }
     }
 
     // What is left without this one, which has been added.
-    JointSide without(const JointLoad& load, bool outwards) const
+    JointSide without(const JointLoad& load, const Eigen::Vector3d& point, bool outwards) const
     {
-        JointSide side;
-        if (!(load.heldStiffness > 0))
-            return side;
-        side.known = true;
-        const Eigen::Vector3d normal = outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal);
+        JointSide alone;
+        alone.known = load.heldStiffness > 0;
+        if (!(alone.known && count > 0))
+            return alone;
+        const Nearest nearest = nearestTo(outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal));
+        const Eigen::Vector3d here = point - origin;
+        double shares[most] = {};
+        for (int i = 0; i < count; ++i)
+            if (const double cosine = nearest.cosines[i]; cosine > 0 && !(i == nearest.face && faces[i].count == 1))
+                shares[i] = std::min(1.0, cosine * cosine);
         Sum rest;
-        const Face* const mine = faceOf(normal);
-        for (const Face* face = faces.data(); face != faces.data() + count; ++face) {
-            const double cosine = face->normal.dot(normal);
-            if (!(cosine > 0))
-                continue;
-            const double share = std::min(1.0, cosine * cosine);
-            if (face == mine && face->sum.count == 1) // it is this one
-                continue;
-            rest.add(share, face->sum);
-            if (face == mine)
-                rest.add(-share, sumOf(load));
-        }
-        if (!(rest.stiffness > rounding * load.heldStiffness))
-            return side;
-        side.stiffness = rest.stiffness / load.heldStiffness;
-        side.force = load.heldForce > 0 ? std::max(0.0, rest.force) / load.heldForce : 0;
-        const Eigen::Vector3d here = load.heldPoint - origin, centroid = rest.first / rest.stiffness;
-        side.centroid = centroid - here;
-        side.spread = rest.second / rest.stiffness - centroid * centroid.transpose();
-        side.point = rest.force > rounding * load.heldForce ? Eigen::Vector3d(rest.pressed / rest.force - here)
-                                                       : side.centroid;
-        return side;
+        rest.set(shares[0], faces[0].sum);
+        for (int i = 1; i < count; ++i)
+            if (shares[i] > 0)
+                rest.add(shares[i], faces[i].sum);
+        if (const double own = shares[nearest.face]; own > 0)
+            rest.add(-own, load, here);
+        if (rest.stiffness() > rounding * load.heldStiffness)
+            return sideOf(rest, load, here);
+        return alone;
     }
 
     void clear() { count = 0; }
-    bool isOne() const { return count == 0 || (count == 1 && faces[0].sum.count == 1); }
 
     // As numbers, for another process.
-    static constexpr int numbers = 1 + 3 + 6 * 21;
+    static constexpr int numbers = 1 + 3 + 6 * 18;
     void write(double* to)
     {
         *to++ = count;
@@ -133,69 +121,117 @@ private:
     static constexpr double sameNormal = 1e-8; // 1 - cosine
     static constexpr double rounding = 1e-12; // of what is left of a difference
 
-    // About `origin`.
+    // About `origin`. Numbers in a row, which the compiler adds up in one loop.
     struct Sum {
-        double stiffness = 0, force = 0, count = 0;
-        Eigen::Vector3d first = Eigen::Vector3d::Zero(), pressed = Eigen::Vector3d::Zero();
-        Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
+        static constexpr int size = 14;
+        double all[size];
 
+        double stiffness() const { return all[0]; }
+        double force() const { return all[1]; }
+        double first(int i) const { return all[2 + i]; }
+        double pressed(int i) const { return all[5 + i]; }
+        double second(int i) const { return all[8 + i]; }
+        double secondAcross(int i) const { return all[11 + i]; }
+
+        void set(double share, const Sum& other)
+        {
+            for (int i = 0; i < size; ++i)
+                all[i] = share * other.all[i];
+        }
         void add(double share, const Sum& other)
         {
-            stiffness += share * other.stiffness;
-            force += share * other.force;
-            first += share * other.first;
-            pressed += share * other.pressed;
-            second += share * other.second;
+            for (int i = 0; i < size; ++i)
+                all[i] += share * other.all[i];
         }
-        void operator+=(const Sum& other)
+        void set(const JointLoad& load, const Eigen::Vector3d& point)
         {
-            add(1, other);
-            count += other.count;
+            each(1, load, point, [](double& sum, double number) { sum = number; });
+        }
+        void add(double share, const JointLoad& load, const Eigen::Vector3d& point)
+        {
+            each(share, load, point, [](double& sum, double number) { sum += number; });
+        }
+
+    private:
+        // One by one: what has just been written one by one is slow to read in pairs.
+        template <class Visit>
+        void each(double share, const JointLoad& load, const Eigen::Vector3d& point, Visit&& visit)
+        {
+            const double k = share * load.heldStiffness, f = share * load.heldForce;
+            const double x = point[0] + load.heldCentroid[0], y = point[1] + load.heldCentroid[1],
+                         z = point[2] + load.heldCentroid[2];
+            const double kx = k * x, ky = k * y, kz = k * z;
+            visit(all[0], k);
+            visit(all[1], f);
+            visit(all[2], kx);
+            visit(all[3], ky);
+            visit(all[4], kz);
+            visit(all[5], f * point[0]);
+            visit(all[6], f * point[1]);
+            visit(all[7], f * point[2]);
+            visit(all[8], k * load.heldSpread[0] + kx * x);
+            visit(all[9], k * load.heldSpread[1] + ky * y);
+            visit(all[10], k * load.heldSpread[2] + kz * z);
+            visit(all[11], k * load.heldSpreadAcross[0] + ky * z);
+            visit(all[12], k * load.heldSpreadAcross[1] + kz * x);
+            visit(all[13], k * load.heldSpreadAcross[2] + kx * y);
         }
     };
     struct Face {
-        Eigen::Vector3d normal;
         Sum sum;
+        Eigen::Vector3d normal;
+        double count; // of joints
     };
 
-    Sum sumOf(const JointLoad& load) const
+    // The face that a joint with this normal is of: the one with the nearest normal.
+    struct Nearest {
+        double cosines[most];
+        int face = 0;
+    };
+    Nearest nearestTo(const Eigen::Vector3d& normal) const
     {
-        const Eigen::Vector3d point = load.heldPoint - origin, centroid = point + load.heldCentroid;
-        return { load.heldStiffness,
-                 load.heldForce,
-                 1,
-                 load.heldStiffness * centroid,
-                 load.heldForce * point,
-                 load.heldStiffness * (load.spread() + centroid * centroid.transpose()) };
+        Nearest nearest;
+        for (int i = 0; i < count; ++i) {
+            nearest.cosines[i] = faces[i].normal.dot(normal);
+            if (nearest.cosines[i] > nearest.cosines[nearest.face])
+                nearest.face = i;
+        }
+        return nearest;
     }
-
-    // The face that a joint with this normal is of: the one with the nearest normal; none, before there is one.
-    Face* faceOf(const Eigen::Vector3d& normal)
+    static JointSide sideOf(const Sum& rest, const JointLoad& load, const Eigen::Vector3d& here)
     {
-        return const_cast<Face*>(static_cast<const JointsOfBody&>(*this).faceOf(normal));
-    }
-    const Face* faceOf(const Eigen::Vector3d& normal) const
-    {
-        return std::max_element(faces.data(), faces.data() + count, [&](const Face& one, const Face& other) {
-            return one.normal.dot(normal) < other.normal.dot(normal);
-        });
+        JointSide side;
+        side.known = true;
+        const double over = 1 / load.heldStiffness;
+        side.stiffness = rest.stiffness() * over;
+        for (int i = 0; i < 3; ++i)
+            side.first[i] = (rest.first(i) - rest.stiffness() * here[i]) * over;
+        const auto secondAbout = [&](double second, int i, int j) {
+            return (second - here[i] * rest.first(j)) * over - here[j] * side.first[i];
+        };
+        side.second = { secondAbout(rest.second(0), 0, 0), secondAbout(rest.second(1), 1, 1),
+                        secondAbout(rest.second(2), 2, 2) };
+        side.secondAcross = { secondAbout(rest.secondAcross(0), 1, 2), secondAbout(rest.secondAcross(1), 2, 0),
+                              secondAbout(rest.secondAcross(2), 0, 1) };
+        if (rest.force() > rounding * load.heldForce && load.heldForce > 0) {
+            const double overForce = 1 / load.heldForce;
+            side.force = rest.force() * overForce;
+            for (int i = 0; i < 3; ++i)
+                side.pressed[i] = (rest.pressed(i) - rest.force() * here[i]) * overForce;
+        }
+        return side;
     }
     template <class Visit> void each(Visit&& visit)
     {
-        const auto all = [&](auto& values) { std::for_each(values.data(), values.data() + values.size(), visit); };
-        all(origin);
+        std::for_each(origin.data(), origin.data() + 3, visit);
         for (int i = 0; i < count; ++i) {
-            Face& face = faces[static_cast<std::size_t>(i)];
-            for (double* number : { &face.sum.stiffness, &face.sum.force, &face.sum.count })
-                visit(*number);
-            all(face.normal);
-            all(face.sum.first);
-            all(face.sum.pressed);
-            all(face.sum.second);
+            std::for_each(faces[i].sum.all, faces[i].sum.all + Sum::size, visit);
+            std::for_each(faces[i].normal.data(), faces[i].normal.data() + 3, visit);
+            visit(faces[i].count);
         }
     }
 
-    std::array<Face, most> faces;
+    Face faces[most];
     int count = 0;
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
 };

@@ -22,8 +22,9 @@ struct FrictionForce {
 inline double allowedShare(const FrictionForce& force, const FrictionForce& limit)
 {
     const auto over = [](double part, double whole) { return part > 0 ? part / whole : 0; };
-    const double size = std::hypot(over(force.shear, limit.shear), over(force.twist, limit.twist));
-    return size > 1 ? 1 / size : 1;
+    const double shear = over(force.shear, limit.shear), twist = over(force.twist, limit.twist);
+    const double squared = shear * shear + twist * twist;
+    return squared > 1 ? 1 / std::sqrt(squared) : 1;
 }
 
 // Where on a patch friction acts: on 16 points of two ellipses about the centre of pressure, with the shape of the
@@ -134,7 +135,7 @@ inline FrictionForce limitOf(const JointParameters& joint, bool broken, const Co
 {
     const double cohesion = broken ? joint.residualCohesion : joint.cohesion;
     const double friction = pressing * (broken ? joint.residualFriction : joint.friction);
-    const double lever = 2 * M_SQRT2 / 3 * std::sqrt(patch.area * patch.polarMoment);
+    const double lever = cohesion > 0 ? 2 * M_SQRT2 / 3 * std::sqrt(patch.area * patch.polarMoment) : 0;
     return { cohesion * patch.area + friction, cohesion * lever + friction * patch.twistLever };
 }
 

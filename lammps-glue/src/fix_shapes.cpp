@@ -197,12 +197,11 @@ void FixShapes::pre_force(int)
 }
 
 // From the centre of the atom, or of its periodic image that is nearest: an atom may have crossed a border since.
-JointLoad FixShapes::seenFrom(int i, const JointLoad& load) const
+Eigen::Vector3d FixShapes::pointFrom(int i, const JointLoad& load) const
 {
-    JointLoad seen = load;
-    seen.heldPoint -= Eigen::Vector3d(atom->x[i]);
-    domain->minimum_image(FLERR, seen.heldPoint.data());
-    return seen;
+    Eigen::Vector3d point = load.heldPoint - Eigen::Vector3d(atom->x[i]);
+    domain->minimum_image(FLERR, point.data());
+    return point;
 }
 
 // Before pairs and walls change what their joints remember.
@@ -222,7 +221,7 @@ void FixShapes::gatherJoints()
         one.clear();
     const auto add = [&](int i, const JointLoad& load, bool outwards) {
         if (i < atom->nlocal)
-            joints[i].add(seenFrom(i, load), outwards);
+            joints[i].add(load, pointFrom(i, load), outwards);
     };
     if (pair && pair->actsOnPatches())
         pair->eachLoad(add);
@@ -246,7 +245,7 @@ void FixShapes::unpack_forward_comm(int count, int first, double* buffer)
 
 JointSide FixShapes::sideOf(int i, const JointLoad& load, bool outwards) const
 {
-    return joints.empty() ? JointSide {} : joints[i].without(seenFrom(i, load), outwards);
+    return joints.empty() ? JointSide {} : joints[i].without(load, pointFrom(i, load), outwards);
 }
 
 std::string FixShapes::whyNotOfItsType() const

@@ -50,7 +50,7 @@ private:
     void checkRun() const;
     std::string whyNotOfItsType() const; // of an atom that is not, or empty
     void gatherJoints();
-    JointLoad seenFrom(int i, const JointLoad& load) const;
+    Eigen::Vector3d pointFrom(int i, const JointLoad& load) const;
     void give(int i); // radius and mass by its type
     std::string whyNotOriented(double* quaternion, LAMMPS_NS::tagint tag) const; // or it is now
 

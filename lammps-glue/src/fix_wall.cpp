@@ -415,7 +415,8 @@ void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool 
     JointBody body {
         Vector3d(atom->x[i]), Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(atom->v[i]), Vector3d(atom->omega[i]), {}
     };
-    body.mass = { Vector3d::Constant(mass), mass / shape.volume * shape.moments, body.centre, body.turn };
+    body.mass = { Vector3d::Constant(1 / mass), shape.volume / mass * shape.moments.cwiseInverse(), body.centre,
+                  body.turn };
     const JointBody wall { frame.origin, frame.turn, frame.velocity, frame.angularVelocity, {} };
     const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
     if (!contact.joint.touching)

@@ -85,8 +85,8 @@ JointBody PairPotentialParticle::bodyOf(int i) const
                      vector(atom->omega[i]),
                      {} };
     if (isMoved(i))
-        body.mass = { Vector3d::Constant(atom->rmass[i]), atom->rmass[i] / shape.volume * shape.moments, body.centre,
-                      body.turn };
+        body.mass = { Vector3d::Constant(1 / atom->rmass[i]),
+                      shape.volume / atom->rmass[i] * shape.moments.cwiseInverse(), body.centre, body.turn };
     return body;
 }
 

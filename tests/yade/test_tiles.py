@@ -206,7 +206,7 @@ for number in range(4):
 
     O.dt = potential_particles.critical_time_step()
     start, met = energy(), False
-    while O.iter < 6000 and not (met and not O.interactions.countReal()):
+    while O.iter < 40000 and not (met and not O.interactions.countReal()):
         run(5)
         met = met or O.interactions.countReal() > 0
     check.true(met, f"it lands (seed {seed}, number {number})")

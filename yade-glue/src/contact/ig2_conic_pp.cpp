@@ -467,7 +467,10 @@ void Ig2_ConicPP_ConicPP_ScGeom::fillPhysics(PairInScene& pair, const Posed& bod
     // In the first step of a contact YADE calls this functor before the one that makes the physics:
     // the area of that step stays 0, as with YADE's own functor. Physics of another kind have no
     // place for an area, which is then not computed at all.
-    auto* const phys = castTo<yade::KnKsPhys, yade::KnKsPhys>(pair.interaction->phys.get());
+    yade::IPhys* const given = pair.interaction->phys.get();
+    if (!given || typeid(*given) == typeid(ConicJointPhys))
+        return;
+    auto* const phys = castTo<yade::KnKsPhys, yade::KnKsPhys>(given);
     if (!phys)
         return;
     phys->ptOnP1 = Vector3r(found.point_on_a);

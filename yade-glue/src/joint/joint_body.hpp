@@ -35,13 +35,14 @@ inline JointBody movingBody(const yade::Scene& scene, int id, const yade::Vector
     JointMass& mass = moving.mass;
     mass.centre = whole.se3.position + shift;
     mass.turn = whole.se3.orientation;
+    const double overMass = whole.mass > 0 ? 1 / whole.mass : 0;
     for (int i = 0; i < 3; ++i)
-        if (whole.mass > 0 && !(whole.blockedDOFs >> i & 1))
-            mass.masses[i] = whole.mass;
+        if (!(whole.blockedDOFs >> i & 1))
+            mass.overMasses[i] = overMass;
     constexpr unsigned allTurns = 8 + 16 + 32;
     for (int i = 0; i < 3; ++i)
         if ((whole.blockedDOFs & allTurns) != allTurns && whole.inertia[i] > 0)
-            mass.moments[i] = whole.inertia[i];
+            mass.overMoments[i] = 1 / whole.inertia[i];
     return moving;
 }
 

@@ -10,6 +10,7 @@
 #include "plugin-common/joint_sides.hpp"
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <vector>
 
@@ -26,29 +27,64 @@ public:
     // after a step without joints or a load, what the joints themselves remember; the others wait for it.
     void refresh(const yade::Scene& scene);
 
+    // Of which bodies a joint is. Bodies: the clumps, of members; -1 of one that no force moves: nobody asks for its
+    // side.
+    struct Key {
+        int id1 = -1, id2 = -1, body1 = -1, body2 = -1;
+        bool operator==(const Key& other) const
+        {
+            return id1 == other.id1 && id2 == other.id2 && body1 == other.body1 && body2 == other.body2;
+        }
+    };
+    static Key keyOf(const yade::Scene& scene, const yade::Interaction& joint, bool isHeld1, bool isHeld2);
+
     // What the bodies of a joint hold beside it, whose load is still that of the last step. shift: of the periodic
-    // image of body 2. isHeld1, isHeld2: no force moves the body, and nobody asks for its side.
-    JointSides sides(const yade::Scene& scene, const yade::Interaction& joint, const JointLoad& load,
-                     const Eigen::Vector3d& shift, bool isHeld1, bool isHeld2) const;
-    // After its step, with what it holds now.
-    void note(const yade::Scene& scene, const yade::Interaction& joint, const JointLoad& load,
-              const Eigen::Vector3d& shift, bool isHeld1, bool isHeld2);
+    // image of body 2.
+    JointSides sides(const Key& key, const JointLoad& load, const Eigen::Vector3d& shift) const
+    {
+        return { sideOf(key.body1, load, load.heldPoint, true),
+                 sideOf(key.body2, load, load.heldPoint - shift, false) };
+    }
+    // After its step, with what it holds now. place: in YADE's list.
+    void note(std::size_t place, long inStep, const Key& key, const JointLoad& load, const Eigen::Vector3d& shift);
 
 private:
+    struct Noted {
+        long step = -1;
+        Key key;
+    };
     struct Row {
-        int body, part, other; // part: the member, of a clump
-        bool outwards;
         JointLoad load;
+        Eigen::Vector3d point2; // heldPoint as body 2 sees it, in its own place
+    };
+    // By the place of the joint in YADE's list.
+    struct Rows {
+        std::vector<Noted> noted; // most pairs are no joints
+        std::vector<Row> rows;
+
+        void resize(std::size_t size)
+        {
+            noted.resize(size);
+            rows.resize(size);
+        }
+    };
+    struct Entry {
+        std::uint32_t place;
+        bool outwards;
     };
 
     bool isOfLastStep(const yade::Scene& scene) const;
     void readFrom(const yade::Scene& scene);
-    void build(std::size_t bodies);
-    JointSide side(int body, const JointLoad& load, bool outwards) const;
+    bool isListed(long noted, std::size_t bodies);
+    void list(std::size_t bodies);
+    void addUp();
+    JointSide sideOf(int body, const JointLoad& load, const Eigen::Vector3d& point, bool outwards) const;
 
-    std::vector<std::vector<Row>> noted; // in this step, by thread
-    std::vector<Row> rows; // of the last step; used while they are sorted
-    std::vector<std::uint32_t> first, order; // by body, in `order`: places in `rows`
+    Rows now, last; // of this step and the last one
+    // Of each body with several joints its entries, in the order of the other body. They last while the keys do.
+    std::vector<Key> keys;
+    std::vector<Entry> entries;
+    std::vector<std::uint32_t> ends; // in `entries`, by sum
     std::vector<int> sumOf; // by body, in `sums`; -1 of a body with one joint at most
     std::vector<JointsOfBody> sums;
 

@@ -11,6 +11,8 @@
 
 #include "plugin-common/joint_law.hpp"
 
+#include <typeinfo>
+
 namespace potential_particles {
 
 using Law = Law2_ScGeomConicPP_ConicJointPhys;
@@ -34,17 +36,15 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
                                              : Vector3r::Zero();
     auto& geom = static_cast<yade::ScGeom&>(geometry);
     auto& phys = static_cast<ConicJointPhys&>(physics);
-    auto* const own = dynamic_cast<ScGeomConicPP*>(&geom);
+    auto* const own = typeid(geom) == typeid(ScGeomConicPP) ? static_cast<ScGeomConicPP*>(&geom) : nullptr;
     const JointBody one = movingBody(*scene, interaction.id1, Vector3r::Zero()),
                     other = movingBody(*scene, interaction.id2, shift);
     phys.rememberEnergyAlong();
     const JointParameters parameters = phys.parameters();
     JointsInStep& joints = JointsInStep::all();
     joints.refresh(*scene);
-    const bool isHeld1 = one.mass.isHeld(), isHeld2 = other.mass.isHeld();
-    const JointSides sides = parameters.dampingRatio > 0
-        ? joints.sides(*scene, interaction, phys, shift, isHeld1, isHeld2)
-        : JointSides {};
+    const JointsInStep::Key key = joints.keyOf(*scene, interaction, one.mass.isHeld(), other.mass.isHeld());
+    const JointSides sides = parameters.dampingRatio > 0 ? joints.sides(key, phys, shift) : JointSides {};
     JointLaw law(parameters, phys, one, other, sides, scene->dt);
 
     const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
@@ -69,7 +69,7 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
             geom.normal = law.forces().normal;
         }
     }
-    joints.note(*scene, interaction, phys, shift, isHeld1, isHeld2);
+    joints.note(static_cast<std::size_t>(interaction.linIx), scene->iter, key, phys, shift);
     phys.take(law.forces());
     // One force a body: in which order threads add up more of them is left to chance.
     if (holds || touches) {

@@ -7,6 +7,7 @@
 #include "abi/scene.hpp"
 #include "blocks.hpp"
 #include "in_step.hpp"
+#include "joint/conic_joint.hpp"
 #include "particle/fetch.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
 
@@ -136,9 +137,9 @@ private:
     // A contact takes some hundred nanoseconds, and so does a load from memory: six contacts are time enough for the
     // loads of one.
     static constexpr std::size_t ahead = 6;
-    // What a contact touches of ScGeomConicPP and KnKsPhys.
+    // What a contact touches of ScGeomConicPP, and of KnKsPhys or ConicJointPhys.
     static constexpr std::size_t geomSize = 256, stateOffset = sizeof(ScGeomConicPP) - sizeof(pp_pair_state);
-    static constexpr std::size_t stateSize = sizeof(pp_pair_state), physSize = 480;
+    static constexpr std::size_t stateSize = sizeof(pp_pair_state), physSize = sizeof(ConicJointPhys);
     static constexpr std::uint64_t busy = ~std::uint64_t(0);
 
     struct FlatBody {
