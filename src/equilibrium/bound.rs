@@ -121,8 +121,8 @@ pub(super) fn strength(assembly: &Assembly) -> Result<Equilibrium, EquilibriumEr
     halved(assembly, bracket, HALVING)
 }
 
-/// The factor between a κ with which no forces hold the scene and one with which forces of the least norm do, by halving.
-/// Where clarabel finds neither, κ counts as too weak.
+/// The factor between a κ with which no forces hold the scene and one with which forces of the least norm do, by
+/// halving. Where clarabel finds neither, κ counts as too weak.
 fn halved(assembly: &Assembly, mut bracket: [f64; 2], mut programs: u32) -> Result<Equilibrium, EquilibriumError> {
     while let Some(kappa) = inside(bracket) {
         let stands = matches!(rest(assembly, kappa), Ok(Outcome::Solved(_)));

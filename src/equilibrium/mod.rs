@@ -1,10 +1,11 @@
 //! Whether a scene of rigid bodies stands, and by how much: the equilibrium of elastic joints with Coulomb's friction
 //! (feature `equilibrium`).
 //!
-//! At each point of a contact the law of joints gives the force of a small displacement, n along the normal and t across
-//! it, |t| ≤ (μ n + c a)/F and n ≥ −σ a with a the share of the area. [`stands()`]: do bodies come to rest under their
-//! dead loads, applied slowly, at λ = 0 and F = 1? [`load_factor`]: the largest λ on the live loads. [`strength_factor`]:
-//! the largest F. Both follow the states of rest to their limit, where displacements grow along the mechanism.
+//! At each point of a contact the law of joints gives the force of a small displacement, n along the normal and t
+//! across it, |t| ≤ (μ n + c a)/F and n ≥ −σ a with a the share of the area. [`stands()`]: do bodies come to rest under
+//! their dead loads, applied slowly, at λ = 0 and F = 1? [`load_factor`]: the largest λ on the live loads.
+//! [`strength_factor`]: the largest F. Both follow the states of rest to their limit, where displacements grow along
+//! the mechanism.
 //!
 //! Slip does not open joints ([`Flow::NonDilatant`]). With every factor comes a bound from above, that of joints which
 //! open by tan φ times their slip ([`Flow::Associated`]), a convex problem whose limit no state exceeds.
