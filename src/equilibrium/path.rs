@@ -72,7 +72,8 @@ pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result
         let before = drift.stiffness.solves;
         if drift.settle(&mut next, unknown, &across, STEP_DRAG, (OF_STEP, f64::INFINITY)) != End::Rest {
             way.length *= 0.25;
-            if way.length * dot(&way.along, &across).sqrt() < SHORT * size(drift, &way.state) {
+            let step = way.length * dot(&way.along, &across).sqrt();
+            if !(step >= SHORT * size(drift, &way.state) && step.is_finite()) {
                 way = raised(drift, best, unknown)?;
                 best = way.state.clone();
             }

@@ -26,6 +26,8 @@ const MISSED: f64 = 0.6;
 const LEAST_DRAG: f64 = 1e-13;
 /// With more drag even a light stone on a heavy one does not move.
 const MOST_DRAG: f64 = 1e12;
+/// Drag with which a tangent exists where bodies are loose.
+const TANGENT_DRAG: f64 = 1e-8;
 
 /// What is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -215,7 +217,7 @@ impl<'a> Drift<'a> {
         let left = self.left(&state.v, state.at).0;
         let response = self.response(state, unknown, &left);
         let (assembly, weights) = (self.assembly, &self.weights);
-        let found = self.stiffness.factorise(assembly, &state.v, state.at, AT_REST, weights);
+        let found = self.stiffness.factorise(assembly, &state.v, state.at, TANGENT_DRAG, weights);
         found.then(|| self.stiffness.solve(&response))
     }
 }
