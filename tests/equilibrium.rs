@@ -1,6 +1,7 @@
 //! Equilibrium of scenes against closed forms.
 
 #[path = "../benches/equilibrium/scenes.rs"]
+#[allow(dead_code)]
 mod scenes;
 
 use potential_particles::Plane;
