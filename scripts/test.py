@@ -116,17 +116,17 @@ STAGES = [
     suite("lammps-long", "LAMMPS scenes, all of them", ("tests/lammps/run.py", "--all"), needs=("lammps-build", ),
           plans=("all", )),
     suite("ranks-long", "YADE on ranks, long", ("tests/mpi/run.py", "--long"), needs=("yade-build", ), plans=("all", )),
-    # Each target that measures, a little of it: one that panics or raises fails, one that misses what it states is
-    # printed in the log. Those of make peers only where its contestants have been fetched.
+    # By name alone, before a release: each target that measures, a little of it. One that panics or raises fails, one
+    # that misses what it states is printed in the log. Those of make peers only where its contestants are there.
     check("measured", "What make bench, patch, equilibrium and stress measure, a little of each",
           *((*MAKE, target, "QUICK=1") for target in ("bench", "patch", "equilibrium")),
-          (*MAKE, "stress", "POSES=10000"), needs=("library", ), after=("rust", "rust-long"), plans=("all", )),
+          (*MAKE, "stress", "POSES=10000"), needs=("library", ), after=("rust", "rust-long"), plans=()),
     check("measured-yade", "What is measured in YADE, a little of each",
           *((*MAKE, target, "QUICK=1") for target in ("side-by-side", "rock", "scenes", "scale")),
           (*MAKE, "patch-yade", "CASES=face"), (*MAKE, "classics", "CASES=short"),
           ("env", "SCENES=rods", *MAKE, "time-step"),
           *([(*MAKE, "peers", "QUICK=1")] if (TOP / "out" / "peers" / "bin").is_dir() else []), needs=("yade-build", ),
-          after=("yade", "examples", "measured"), plans=("all", )),
+          after=("yade", "examples", "measured"), plans=()),
     check("asan", "C harness under AddressSanitizer and UBSan", (*MAKE, "-C", "tests/c", "asan"), needs=("library", ),
           plans=("all", )),
     check("valgrind", "C harness under valgrind", (*MAKE, "-C", "tests/c", "valgrind"), needs=("c", ), plans=("all", )),
