@@ -69,7 +69,9 @@ def _serves(law, functor):
 
 
 def lost_spins(scene, moving):
-    """NewtonIntegrator takes the spin of aspherical bodies from their angular momentum."""
+    """NewtonIntegrator takes the spin of aspherical bodies from their angular momentum, which ranks do not exchange."""
+    if getattr(scene, "splittedOnce", False):
+        return
     if not any(engine.exactAsphericalRot for engine in scene.engines
                if type(engine).__name__ == "NewtonIntegrator" and not engine.dead):
         return
