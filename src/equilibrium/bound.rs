@@ -27,11 +27,16 @@ const MOST: u32 = 100;
 /// # Errors
 /// `NotConverged`.
 pub(super) fn rest(assembly: &Assembly, part: f64) -> Result<Outcome, EquilibriumError> {
+    solve(assembly, &cones(assembly, part), Goal::Rest)
+}
+
+/// The strength of all points, this part of it.
+fn cones(assembly: &Assembly, part: f64) -> Vec<Cone> {
     let cone = |(_, point): (_, &Point)| {
         let of = &point.strength;
         Cone { slope: part * of.friction, base: part * of.cohesion, growth: 0.0, tension: of.tension }
     };
-    solve(assembly, &assembly.each_point().map(cone).collect::<Vec<_>>(), Goal::Rest)
+    assembly.each_point().map(cone).collect()
 }
 
 /// Whether any forces hold all bodies.
@@ -52,11 +57,7 @@ pub(super) fn stands(assembly: &Assembly) -> Result<Equilibrium, EquilibriumErro
 /// # Errors
 /// `NotConverged`, `Unlimited`.
 pub(super) fn load(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
-    let cone = |(_, point): (_, &Point)| {
-        let of = &point.strength;
-        Cone { slope: of.friction, base: of.cohesion, growth: 0.0, tension: of.tension }
-    };
-    match solve(assembly, &assembly.each_point().map(cone).collect::<Vec<_>>(), Goal::Load)? {
+    match solve(assembly, &cones(assembly, 1.0), Goal::Load)? {
         Outcome::Solved(solved) => {
             let at = Demand { live: solved.factor, strength: 1.0 };
             answer(assembly, &solved, at, assembly.live_factor(solved.factor), 1)

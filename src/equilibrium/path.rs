@@ -10,7 +10,7 @@ use super::rest::{Drift, End, State, Unknown, dot};
 
 /// The first step, as a part of the displacements there are.
 const FIRST: f64 = 0.05;
-/// The first drag of a step, which the law that is linear between two events does not need, and of a drift.
+/// The first drag of a step, little since the law is linear between two events, and of a drift.
 const STEP_DRAG: f64 = 1e-8;
 pub(super) const DRIFT_DRAG: f64 = 0.1;
 /// Most factorisations of a step, of a drift, and of a path.
@@ -19,11 +19,11 @@ pub(super) const OF_DRIFT: u32 = 400;
 const OF_PATH: u32 = 40_000;
 /// Steps below this part of the displacements lead nowhere: loads are raised instead.
 const SHORT: f64 = 1e-5;
-/// A factor on the live loads, of the size of the dead ones, that counts as none.
+/// Above this factor the live loads, in units of the dead ones, count as without limit.
 const MOST: f64 = 1e9;
-/// A part of the strength that counts as none.
+/// Below this part the strength counts as none.
 const NONE: f64 = 1e-9;
-/// By how much loads are then raised, as parts of them: under a little more than they can bear bodies creep.
+/// By how much loads are raised, as parts of them: under very little more than they can bear bodies creep.
 const RAISED: [f64; 3] = [0.01, 0.04, 0.16];
 const RAISED_DRAG: f64 = 1e-2;
 /// Displacements after which bodies then go along a mechanism, over those before.
@@ -127,7 +127,8 @@ fn begin(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, Equil
     if length.is_finite() {
         return Ok(Way { state, along, by, length });
     }
-    // Nothing answers: no live load moves anything, or no point slips before strength has fallen to what is used.
+    // No displacement changes with the parameter: no live load moves anything, or no point slips before strength has
+    // fallen to what is used.
     let used = if unknown == Unknown::Strength { drift.used(&state) } else { 0.0 };
     if !(used > NONE) {
         return Err(unlimited(unknown));
