@@ -30,10 +30,15 @@ def finds(text, what):
 
 # --- every class of YADE's registry -----------------------------------------------------------------------------
 
+# Not in every YADE: of 2025.2 alone, and those that Debian's 2025.2 is built without.
+NOT_EVERYWHERE = frozenset("""CapillarityEngine FlowEngine FlowEngineT FlowEngine_PeriodicInfo MicroMacroAnalyser
+PartialSatClayEngine PartialSatClayEngineT PeriodicFlowEngine PolyhedraSplitter SplitPolyMohrCoulomb SplitPolyTauMax
+TesselationWrapper ThermalEngine TimeAverager TwoPhaseFlowEngine TwoPhaseFlowEngineT UnsaturatedEngine
+VESupportEngine""".split())
 listed = tools.SERVE | tools.DRAW | set(tools.SILENT)
 engines = {name for base in ("PartialEngine", "GlobalEngine", "Dispatcher") for name in yade.system.childClasses(base)}
 check.equal(engines - listed, set(), "every engine of YADE is in the list")
-check.equal(listed - engines, set(), "and no other")
+check.equal(listed - engines - NOT_EVERYWHERE, set(), "and no other")
 check.equal(tools.SERVE & set(tools.SILENT), set(), "each once")
 laws = yade.system.childClasses("LawFunctor")
 check.true(tools.TRIED_LAWS <= set(laws), "the laws that were tried are there")
@@ -122,6 +127,9 @@ finds("has not been tried", "a law that nobody tried")
 
 scene()
 O.bodies[1].state.angVel = Vector3(0, 0, 1)
+if hasattr(O.engines[-1], "rotAlgorithm"):
+    check.equal(said(), [], "a spin that this integrator takes")
+    O.engines[-1].rotAlgorithm = "Fincham1992"
 finds("angMom is not", "a spin without angular momentum")
 run(1)
 check.equal(O.bodies[1].state.angVel.norm(), 0.0, "which YADE takes away")

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's engines, functors and laws beside potential particles: which serve them, and what of the others is silent.
 
-The lists name every class of YADE 2023.02a that is an engine or a law; tests/yade/test_tools.py compares them with
-YADE's registry. docs/laboratory.md says the same in words.
+The lists name every class of YADE 2023.02a and 2025.2 that is an engine or a law; tests/yade/test_tools.py compares
+them with YADE's registry. docs/laboratory.md says the same in words.
 """
 from yade.wrapper import PotentialParticle
 
@@ -14,8 +14,8 @@ HarmonicMotionEngine HarmonicRotationEngine HdapsGravityEngine HelixEngine IGeom
 InsertionSortCollider Integrator InteractionLoop InterpolatingDirectedForceEngine InterpolatingHelixEngine
 KinematicEngine LawDispatcher NewtonIntegrator PeriTriaxController Peri3dController PeriodicEngine
 PotentialParticleVTKRecorder PyRunner RadialForceEngine Recorder RotationEngine ServoPIDController SnapshotEngine
-SpatialQuickSortCollider StepDisplacer TimeStepper TorqueEngine TorqueRecorder TranslationEngine
-TriaxialStressController""".split())
+SpatialQuickSortCollider StepDisplacer TimeAverager TimeStepper TorqueEngine TorqueRecorder TranslationEngine
+TriaxialStressController VESupportEngine""".split())
 
 _SPHERES = "acts on spheres alone, and leaves these bodies as they are"
 _OWN_BODIES = "serves bodies of other kinds alone"

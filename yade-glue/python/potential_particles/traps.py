@@ -69,11 +69,14 @@ def _serves(law, functor):
 
 
 def lost_spins(scene, moving):
-    """NewtonIntegrator takes the spin of aspherical bodies from their angular momentum, which ranks do not exchange."""
+    """NewtonIntegrator takes the spin of aspherical bodies from their angular momentum, which ranks do not exchange.
+
+    So does Fincham's way of turning them, the only one before YADE 2025; the others take the spin itself.
+    """
     if getattr(scene, "splittedOnce", False):
         return
-    if not any(engine.exactAsphericalRot for engine in scene.engines
-               if type(engine).__name__ == "NewtonIntegrator" and not engine.dead):
+    if not any(engine.exactAsphericalRot and getattr(engine, "rotAlgorithm", "Fincham1992") == "Fincham1992"
+               for engine in scene.engines if type(engine).__name__ == "NewtonIntegrator" and not engine.dead):
         return
     lost = [body.id for body in moving if body.aspherical and body.state.angVel.norm() > 0.0
             and body.state.angMom.norm() == 0.0 and not set("XYZ") <= set(body.state.blockedDOFs)]
