@@ -5,7 +5,7 @@
 mod scenes;
 
 use potential_particles::equilibrium::*;
-use potential_particles::nalgebra::{Rotation3, Vector3};
+use potential_particles::nalgebra::{Matrix3, Rotation3, Vector3};
 use scenes::{block, ferris_tin_loi, level, pushed, random_slope, v, wall};
 
 fn factor(scene: &Scene) -> f64 {
@@ -52,6 +52,53 @@ fn a_lintel_stands_by_its_thrust() {
         let by_thrust = 2.0 * friction * thrust / 5.0;
         assert!((0.999..1.02).contains(&(found.factor / by_thrust)), "{} {by_thrust}", found.factor);
     }
+}
+
+/// Stress in situ presses a joint by its part along the normal.
+#[test]
+fn stress_in_situ() {
+    let mut scene = lintel(0.6, 0.0);
+    scene.press(|at| Matrix3::from_diagonal(&v(9.0, at.z, 7.0)));
+    assert_eq!(scene, lintel(0.6, 9.0));
+}
+
+/// A support that settles by δ: the initial stress −k δ at its contact. Of three points in a row the middle one settles:
+/// the outer ones bear (W + k a δ)/3.
+#[test]
+fn a_support_settles() {
+    let point = |i: usize| {
+        let corners = vec![v(i as f64, 0.0, 0.0), v(i as f64, 1.0, 0.0)];
+        let initial = if i == 1 { v(0.0, 0.0, -0.25) } else { Vector3::zeros() };
+        Contact { area: 1.0, initial, ..Contact::new([0, 1], corners, Vector3::z(), 0.5) }
+    };
+    let bodies = vec![Body::held(v(0.0, 0.0, -1.0)), Body::free(v(1.0, 0.5, 0.5), v(0.0, 0.0, -1.0))];
+    let found = stands(&Scene { bodies, contacts: (0..3).map(point).collect() }, Flow::NonDilatant).unwrap();
+    for (of, expected) in found.contacts.iter().zip([1.25 / 3.0, 0.5 / 3.0, 1.25 / 3.0]) {
+        close(of.normal, expected, 1e-6);
+    }
+}
+
+/// Live loads that are there once are dead ones.
+#[test]
+fn strength_under_a_push() {
+    let scene = pushed(block(0.5, 0.0, 0.5));
+    close(strength_factor(&scene.under(0.2), Flow::NonDilatant).unwrap().factor, 2.5, 1e-6);
+}
+
+/// Corners on the edges of a polygon or within it bear nothing, and move nothing.
+#[test]
+fn corners_that_are_none() {
+    let scene = pushed(wall(3, 3, 0.6));
+    let mut other = scene.clone();
+    for contact in &mut other.contacts {
+        let (a, b, c) = (contact.corners[0], contact.corners[1], contact.corners[2]);
+        contact.corners.insert(1, 0.7 * a + 0.3 * b);
+        contact.corners.insert(3, 0.5 * a + 0.2 * b + 0.3 * c);
+    }
+    let [found, with] = [scene, other].map(|scene| load_factor(&scene, Flow::NonDilatant).unwrap());
+    close(with.factor, found.factor, 1e-9);
+    close(with.bound, found.bound, 1e-6);
+    assert!(with.forces[1].norm() == 0.0 && with.forces[3].norm() == 0.0);
 }
 
 /// Numbers of bodies and contacts, their sides, place, turn and units, and corners that stand twice.

@@ -1,13 +1,13 @@
 //! Whether a scene of blocks stands.
 
-use crate::arrays::{rows, to_rows, vector};
+use crate::arrays::{rows, to_rows, to_vector, vector};
 use crate::errors::refused;
 use crate::pickles::pickled;
 use crate::slicing::PyRockMass;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::equilibrium::{self as library, Body, Contact, Equilibrium, EquilibriumError, Flow};
 use potential_particles::equilibrium::{JointStrength, Load, Scene};
-use potential_particles::nalgebra::Vector3;
+use potential_particles::nalgebra::{Matrix3, RowVector3, Vector3};
 use potential_particles::rock::{FaceOf, Interface, RockMass};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
@@ -145,8 +145,10 @@ impl PyScene {
     /// Adds a contact of two bodies: corners (n, 3) in order, normal from the first to the second. friction = tan phi;
     /// cohesion and tension are stresses; stiffness: along the normal and across it, of which ratios alone count;
     /// initial: stress on the second body before any load, p times the normal where the contact is pressed by p.
+    /// area: that of the convex polygon of the corners, if not given. A bolt is a point along its normal with the area
+    /// of its steel, the yield stress as tension and that of shear as cohesion, friction 0.
     #[pyo3(signature = (first, second, corners, normal, *, friction, cohesion=0.0, tension=0.0, stiffness=[1.0; 2],
-                        initial=[0.0; 3]))]
+                        initial=[0.0; 3], area=None))]
     #[allow(clippy::too_many_arguments)]
     fn add_contact(
         &mut self,
@@ -159,12 +161,14 @@ impl PyScene {
         tension: f64,
         stiffness: [f64; 2],
         initial: [f64; 3],
+        area: Option<f64>,
     ) -> PyResult<usize> {
         coefficient(&friction)?;
         let corners = rows::<3>(corners, "corners", "x, y, z")?.into_iter().map(Vector3::from).collect();
         let normal = vector::<3>(normal, "normal")?.into();
         let contact = Contact::new([first, second], corners, normal, friction);
-        self.0.contacts.push(Contact { cohesion, tension, stiffness, initial: initial.into(), ..contact });
+        let area = area.unwrap_or(contact.area);
+        self.0.contacts.push(Contact { area, cohesion, tension, stiffness, initial: initial.into(), ..contact });
         Ok(self.0.contacts.len() - 1)
     }
 
@@ -176,6 +180,52 @@ impl PyScene {
             body.live.force = along * body.dead.force.norm();
         }
         Ok(())
+    }
+
+    /// Adds a force (3,) at a place (3,) of a body, dead or live: water, a surcharge, an anchor (one force at either
+    /// end).
+    #[pyo3(signature = (body, place, force, *, live=false))]
+    fn add_force(&mut self, body: usize, place: [f64; 3], force: [f64; 3], live: bool) -> PyResult<()> {
+        let count = self.0.bodies.len();
+        let Some(of) = self.0.bodies.get_mut(body) else {
+            return Err(refused(format!("body={body}: the scene has {count} bodies")));
+        };
+        let load = Load::at(place.into(), force.into(), of.centre);
+        if live { of.live.add(1.0, &load) } else { of.dead.add(1.0, &load) }
+        Ok(())
+    }
+
+    /// Presses every contact by the stress there before any load, as it is in situ. stress: (3, 3), symmetric, pressure
+    /// positive, or a function that gives it at a place (3,).
+    fn press(&mut self, stress: &Bound<'_, PyAny>) -> PyResult<()> {
+        let of = |given: &Bound<'_, PyAny>| -> PyResult<Matrix3<f64>> {
+            let rows = rows::<3>(given, "stress", "x, y, z")?;
+            match rows[..] {
+                [a, b, c] => Ok(Matrix3::from_rows(&[a, b, c].map(RowVector3::from))),
+                _ => Err(refused(format!("stress has {} rows: give (3, 3)", rows.len()))),
+            }
+        };
+        if !stress.is_callable() {
+            let stress = of(stress)?;
+            self.0.press(|_| stress);
+            return Ok(());
+        }
+        let mut failed = None;
+        let mut pressed = self.0.clone();
+        pressed.press(|at| {
+            let found = stress.call1((to_vector(stress.py(), at.as_slice()),)).and_then(|given| of(&given));
+            found.unwrap_or_else(|error| {
+                failed.get_or_insert(error);
+                Matrix3::zeros()
+            })
+        });
+        match failed {
+            Some(error) => Err(error),
+            None => {
+                self.0 = pressed;
+                Ok(())
+            }
+        }
     }
 
     #[getter]
@@ -203,10 +253,11 @@ impl PyScene {
     }
 
     /// Whether the bodies come to rest under their dead loads, from nothing: with the forces, or the motion.
-    /// dilatant=True: whether any forces hold them, where joints open by friction times their slip.
-    #[pyo3(signature = (*, dilatant=false))]
-    fn stands(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
-        self.answer(py, |scene| library::stands(scene, flow(dilatant)))
+    /// dilatant=True: whether any forces hold them, where joints open by friction times their slip. live: the multiple
+    /// of the live loads that counts as dead.
+    #[pyo3(signature = (*, dilatant=false, live=0.0))]
+    fn stands(&self, py: Python<'_>, dilatant: bool, live: f64) -> PyResult<PyEquilibrium> {
+        self.answer(py, |scene| library::stands(&scene.clone().under(live), flow(dilatant)))
     }
 
     /// The largest multiple of the live loads that can be borne, and its bound. dilatant=True: the bound alone, with
@@ -217,10 +268,10 @@ impl PyScene {
     }
 
     /// The factor of safety on tan phi and cohesion, and its bound. dilatant=True: the bound alone, with its forces and
-    /// mechanism, of joints that open as they slip.
-    #[pyo3(signature = (*, dilatant=false))]
-    fn strength_factor(&self, py: Python<'_>, dilatant: bool) -> PyResult<PyEquilibrium> {
-        self.answer(py, |scene| library::strength_factor(scene, flow(dilatant)))
+    /// mechanism, of joints that open as they slip. live: as of stands().
+    #[pyo3(signature = (*, dilatant=false, live=0.0))]
+    fn strength_factor(&self, py: Python<'_>, dilatant: bool, live: f64) -> PyResult<PyEquilibrium> {
+        self.answer(py, |scene| library::strength_factor(&scene.clone().under(live), flow(dilatant)))
     }
 
     fn __repr__(&self) -> String {

@@ -35,6 +35,37 @@ class Block(unittest.TestCase):
         np.testing.assert_allclose(stands.forces.sum(axis=0), (-0.4, 0, 1), atol=1e-6)
         self.assertTrue(not falls.stands and len(falls.forces) == 0 and falls.mechanism[1, 0] > 0)
 
+    def test_anchors_bolts_and_stress_in_situ(self):
+        self.assertAlmostEqual(block(0.5, 0.5).strength_factor(live=0.2).factor, 2.5, delta=1e-5)
+        scene = block(0.5, 0.5)
+        scene.add_force(1, (0, 0, 0.5), (0, 0, -3))
+        scene.add_force(1, (0.25, 0, 0.25), (0.5, 0, 0), live=True)
+        self.assertAlmostEqual(scene.load_factor().factor, 4 * 0.5 / 1.5, delta=1e-5)
+        # A bolt of 0.001 m2 yields at 2,000.
+        scene = equilibrium.Scene()
+        scene.add_body((0, 0, -1), held=True)
+        scene.add_body((0, 0, 0.25), force=(0, 0, -1), live_force=(0, 0, 1))
+        scene.add_contact(0, 1, SQUARE, (0, 0, 1), friction=0.5)
+        scene.add_contact(0, 1, [(0, 0, 0)], (0, 0, 1), friction=0.0, tension=2000.0, cohesion=1000.0, area=0.001)
+        self.assertAlmostEqual(scene.load_factor().factor, 3.0, delta=1e-5)
+        # Between two walls, pressed by 4 from the sides.
+        for stress in (np.diag([4.0, 0, 0]), lambda at: np.diag([4.0 * (at[0] != 0), 0, 0])):
+            scene = equilibrium.Scene()
+            for x, held in ((-1, True), (0, False), (1, True)):
+                scene.add_body((x, 0, 0), held=held, force=(0, 0, -1))
+            for x, first in ((-0.5, 0), (0.5, 1)):
+                square = [(x, y, z) for y, z, _ in SQUARE]
+                scene.add_contact(first, first + 1, square, (1, 0, 0), friction=0.5)
+            self.assertFalse(scene.stands().stands)
+            scene.press(stress)
+            self.assertAlmostEqual(scene.strength_factor().factor, 4.0, delta=1e-5)
+        with self.assertRaisesRegex(ValueError, "stress"):
+            scene.press([1.0, 2.0, 3.0])
+        with self.assertRaises(ZeroDivisionError):
+            scene.press(lambda at: 1 / 0)
+        with self.assertRaisesRegex(ValueError, "body=7: the scene has 3 bodies"):
+            scene.add_force(7, (0, 0, 0), (1, 0, 0))
+
     def test_what_is_refused(self):
         scene = block(0.5, 0.5)
         scene.add_body((0, 0, 9))

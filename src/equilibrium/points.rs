@@ -1,15 +1,12 @@
 //! The points of a contact at which its forces act: a rule that integrates quadratic functions over its polygon.
 //!
-//! A convex polygon is cut into triangles from its centroid. A triangle of area A takes A/12 at each of its corners and
+//! The convex hull of the corners is cut into triangles from its centroid. A triangle of area A takes A/12 at each of its corners and
 //! 3 A/4 at its centroid, which is exact to the second degree: stiffness against shifts and turns is that of an elastic
 //! layer, so that neither splitting a polygon nor more corners on its edges change it. The corners are points, since a
 //! block turns over about them.
 
 use super::scene::Contact;
 use nalgebra::Vector3;
-
-/// A polygon of less area than this part of the square of its extent is a line: its normal is rounding.
-const LINE: f64 = 1e-9;
 
 /// A point of a contact.
 #[derive(Clone, Debug)]
@@ -27,19 +24,19 @@ pub(super) struct ContactPoint {
 pub(super) fn points_of(contact: &Contact) -> Vec<ContactPoint> {
     let corners = &contact.corners;
     let normal = contact.normal.normalize();
-    let (order, middle) = contact.around();
+    let order = contact.outline();
     let count = order.len();
     let place = |i: usize| corners[order[i % count]];
+    let middle = order.iter().map(|i| corners[*i]).sum::<Vector3<f64>>() / count as f64;
     // Twice the area of the triangle from a point over each edge.
     let fan = |from: Vector3<f64>| -> Vec<f64> {
         (0..count).map(|i| (place(i) - from).cross(&(place(i + 1) - from)).dot(&normal).max(0.0)).collect()
     };
+    if count < 3 {
+        return on_a_line(corners, middle);
+    }
     let areas = fan(middle);
     let total: f64 = areas.iter().sum();
-    let extent = corners.iter().map(|at| (at - middle).norm()).fold(0.0, f64::max);
-    if !(total > LINE * extent * extent) {
-        return on_a_line(corners, middle, extent);
-    }
     // The centroid as a mean of corners.
     let mut mean = vec![1.0 / (3.0 * count as f64); count];
     for (i, area) in areas.iter().enumerate() {
@@ -69,7 +66,7 @@ pub(super) fn points_of(contact: &Contact) -> Vec<ContactPoint> {
 }
 
 /// Simpson's rule between the two corners farthest from each other; one point of corners in one place.
-fn on_a_line(corners: &[Vector3<f64>], middle: Vector3<f64>, extent: f64) -> Vec<ContactPoint> {
+fn on_a_line(corners: &[Vector3<f64>], middle: Vector3<f64>) -> Vec<ContactPoint> {
     let farthest = |from: Vector3<f64>| {
         let far = |i: &usize, j: &usize| (corners[*i] - from).norm().total_cmp(&(corners[*j] - from).norm());
         (0..corners.len()).max_by(far).unwrap_or(0)
@@ -78,7 +75,7 @@ fn on_a_line(corners: &[Vector3<f64>], middle: Vector3<f64>, extent: f64) -> Vec
     let last = farthest(corners[first]);
     let end =
         |corner: usize, share| ContactPoint { at: corners[corner], share, onto: vec![(corner, 1.0)], is_corner: true };
-    if extent == 0.0 {
+    if corners[first] == corners[last] {
         return vec![end(first, 1.0)];
     }
     let at = (corners[first] + corners[last]) / 2.0;

@@ -83,25 +83,25 @@ pub fn strength_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, Equilib
         return associated;
     }
     let mut drift = Drift::new(&assembly)?;
-    let mut motion = Vec::new();
     // What falls whatever its strength is not tried with more.
     let falls = matches!(&associated, Ok(found) if !found.stands);
-    let mut undecided = None;
+    let (mut motion, mut undecided) = (None, None);
     for doubled in 0..if falls { 1 } else { STRONGER } {
         match from_nothing(&mut drift, Demand { live: 0.0, strength: 2.0_f64.powi(doubled) }) {
             Ok(Begin::Rest(start)) => {
                 return at_limit(&mut drift, start, Unknown::Strength, associated, |part| 1.0 / part);
             }
-            Ok(Begin::Falls(found)) if motion.is_empty() => motion = found,
-            Ok(Begin::Falls(_)) => {}
-            Err(error) if motion.is_empty() => return Err(error),
-            // It falls with the given strength: with more it may stand.
-            Err(_) => {
-                undecided = Some(EquilibriumError::NotFound { stands: 0.0, bound: bound_of(&associated).min(1.0) })
-            }
+            Ok(Begin::Falls(found)) => _ = motion.get_or_insert(found),
+            // With more strength it may stand.
+            Err(error) => undecided = Some(error),
         }
     }
-    undecided.map_or_else(|| fallen(&drift, &motion, associated), Err)
+    match undecided {
+        None => fallen(&drift, &motion.unwrap_or_default(), associated),
+        Some(error) if motion.is_none() => Err(error),
+        // It falls with the given strength.
+        Some(_) => Err(EquilibriumError::NotFound { stands: 0.0, bound: bound_of(&associated).min(1.0) }),
+    }
 }
 
 enum Begin {

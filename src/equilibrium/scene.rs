@@ -1,7 +1,7 @@
 //! What is asked about: bodies, their contacts, their loads.
 
 use super::error::EquilibriumError;
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 /// A force and its torque about the centre of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,6 +20,17 @@ impl Load {
     /// A force through the centre.
     pub fn force(force: Vector3<f64>) -> Self {
         Self { force, ..Self::NONE }
+    }
+
+    /// A force at a place, on a body with this centre.
+    pub fn at(place: Vector3<f64>, force: Vector3<f64>, centre: Vector3<f64>) -> Self {
+        Self { force, torque: (place - centre).cross(&force) }
+    }
+
+    /// Adds `factor` times another load.
+    pub fn add(&mut self, factor: f64, other: &Self) {
+        self.force += factor * other.force;
+        self.torque += factor * other.torque;
     }
 }
 
@@ -81,24 +92,43 @@ impl Contact {
         let initial = Vector3::zeros();
         let (area, cohesion, tension, stiffness) = (0.0, 0.0, 0.0, [1.0; 2]);
         let made = Self { bodies, corners, normal, area, friction, cohesion, tension, stiffness, initial };
-        let order = made.around().0;
+        let order = made.outline();
         let from = |i: usize| made.corners[order[i]] - made.corners[order[0]];
         let doubled: Vector3<f64> = (1..order.len()).map(|i| from(i - 1).cross(&from(i))).sum();
         Self { area: 0.5 * doubled.norm(), ..made }
     }
 
-    /// The corners in their order about the normal, by index, and their mean.
-    pub(super) fn around(&self) -> (Vec<usize>, Vector3<f64>) {
-        let middle = middle(&self.corners);
-        let across = self.normal.cross(&Vector3::ith(self.normal.iamin(), 1.0));
-        let (across, aside) = (self.normal.norm() * across, self.normal.cross(&across));
-        let angle = |i: &usize| {
-            let arm = self.corners[*i] - middle;
-            aside.dot(&arm).atan2(across.dot(&arm))
+    /// The corners of the convex hull in their order about the normal, by index: without those within it or on its
+    /// edges. Fewer than three if the corners lie on a line.
+    pub(super) fn outline(&self) -> Vec<usize> {
+        let (middle, normal) = (middle(&self.corners), self.normal.normalize());
+        let arms: Vec<Vector3<f64>> = self.corners.iter().map(|at| at - middle).collect();
+        let Some(first) = (0..arms.len()).max_by(|i, j| arms[*i].norm().total_cmp(&arms[*j].norm())) else {
+            return Vec::new();
         };
-        let mut order: Vec<usize> = (0..self.corners.len()).collect();
-        order.sort_by(|i, j| angle(i).total_cmp(&angle(j)));
-        (order, middle)
+        let turn = |i: usize, j: usize, k: usize| (arms[j] - arms[i]).cross(&(arms[k] - arms[j])).dot(&normal);
+        // From the corner farthest from the middle, which is one of the hull.
+        let aside = normal.cross(&arms[first]);
+        let angle = |i: usize| match aside.dot(&arms[i]).atan2(arms[first].dot(&arms[i])) {
+            angle if angle < 0.0 => angle + std::f64::consts::TAU,
+            angle => angle,
+        };
+        let mut order: Vec<usize> = (0..arms.len()).filter(|i| *i != first).collect();
+        order.sort_by(|i, j| angle(*i).total_cmp(&angle(*j)));
+        order.push(first);
+        let straight = STRAIGHT * arms[first].norm_squared();
+        let mut outline = vec![first];
+        for next in order {
+            while let [.., before, last] = outline[..] {
+                if turn(before, last, next) > straight {
+                    break;
+                }
+                outline.pop();
+            }
+            outline.push(next);
+        }
+        outline.pop();
+        outline
     }
 
     /// The largest distance of a corner from the plane across the normal, over that from the middle of the corners; 0
@@ -117,6 +147,10 @@ impl Contact {
 fn middle(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len().max(1) as f64
 }
+
+/// Corners whose triangle with their neighbours has no more than this part of the square of the extent lie on an edge:
+/// they are rounding.
+const STRAIGHT: f64 = 1e-9;
 
 /// Where corners lie farther from the plane across the normal than this share of their extent, the normal is that of
 /// another face: patches of bodies that have turned lean by some 1e-3.
@@ -154,6 +188,25 @@ impl Scene {
     /// Number of corners of all contacts: forces come in this order, contact after contact.
     pub fn corner_count(&self) -> usize {
         self.contacts.iter().map(|contact| contact.corners.len()).sum()
+    }
+
+    /// The same scene with `factor` times the live loads among its dead ones, and no live loads: for the strength under
+    /// a push, water or a surcharge.
+    #[must_use]
+    pub fn under(mut self, factor: f64) -> Self {
+        for body in &mut self.bodies {
+            body.dead.add(factor, &body.live);
+            body.live = Load::NONE;
+        }
+        self
+    }
+
+    /// Presses every contact by the stress there before any load: a symmetric tensor by place, pressure positive, as it
+    /// is in situ.
+    pub fn press(&mut self, stress: impl Fn(&Vector3<f64>) -> Matrix3<f64>) {
+        for contact in &mut self.contacts {
+            contact.initial = stress(&middle(&contact.corners)) * contact.normal.normalize();
+        }
     }
 
     pub(super) fn validate(&self) -> Result<(), EquilibriumError> {

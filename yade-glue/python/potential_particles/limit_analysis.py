@@ -75,7 +75,8 @@ def limit_analysis(question="stands", push=None, loads=None, dilatant=False):
     question: "stands"; "load", for the largest multiple of the live loads that can be borne; "strength", for the
     factor of safety on the tangents of friction angles and on cohesion. push: (3,), a live load of each body's weight
     in this direction, as an earthquake in shares of gravity. loads: {id: (force, torque)}, other live loads, torque
-    about the centre. dilatant=True: joints open as they slip, which gives the bound with its forces and mechanism.
+    about the centre. Of "stands" and "strength" push and loads are there once, as dead ones. dilatant=True: joints open
+    as they slip, which gives the bound with its forces and mechanism.
 
     Dead loads are weights (NewtonIntegrator.gravity) and lasting forces (O.forces.setPermF). Bodies with all
     degrees of freedom blocked are held. Joints (ConicJointMat) have their cohesion and tensile strength as they stand:
@@ -115,6 +116,10 @@ def solved(question, dilatant, bodies, names, rows, pairs):
     normal from the first to the second, (friction, cohesion, tension), corners (n, 3), area and stiffness along the
     normal and across it; pairs: their names.
     """
+    if question != "load":
+        for body in bodies:
+            for dead, live in ((body.dead_force, body.live_force), (body.dead_torque, body.live_torque)):
+                dead[:], live[:] = [one + other for one, other in zip(dead, live)], (0.0, 0.0, 0.0)
     contacts = (_Contact * len(rows))()
     for row, (of, normal, (friction, cohesion, tension), corners, area, stiffness) in zip(contacts, rows):
         row.bodies[:], row.normal[:], row.stiffness[:] = of, normal, stiffness
