@@ -62,8 +62,8 @@ fn stress_in_situ() {
     assert_eq!(scene, lintel(0.6, 9.0));
 }
 
-/// A support that settles by δ: the initial stress −k δ at its contact. Of three points in a row the middle one settles:
-/// the outer ones bear (W + k a δ)/3.
+/// A support that settles by δ: the initial stress −k δ at its contact. Of three points in a row the middle one
+/// settles: the outer ones bear (W + k a δ)/3.
 #[test]
 fn a_support_settles() {
     let point = |i: usize| {
