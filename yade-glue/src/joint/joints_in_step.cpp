@@ -5,6 +5,8 @@
 #include "joint_body.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -18,11 +20,6 @@ JointsInStep& JointsInStep::all()
     return joints;
 }
 
-bool JointsInStep::isOfLastStep(const yade::Scene& scene) const
-{
-    return step.load(std::memory_order_relaxed) + 1 == scene.iter && owner.lock().get() == &scene;
-}
-
 void JointsInStep::refresh(const yade::Scene& scene)
 {
     const auto isSeen = [&] {
@@ -33,13 +30,19 @@ void JointsInStep::refresh(const yade::Scene& scene)
     const std::lock_guard<std::mutex> lock(mutex);
     if (isSeen())
         return;
+    const bool goesOn = step.load(std::memory_order_relaxed) + 1 == scene.iter && owner.lock().get() == &scene;
+    begin(scene, scene.iter, goesOn);
+}
+
+void JointsInStep::begin(const yade::Scene& scene, long inStep, bool goesOn)
+{
     const std::size_t places = scene.interactions->currSize, bodies = scene.bodies->body.size();
-    long noted = scene.iter - 1;
-    if (!isOfLastStep(scene)) {
-        noted = scene.iter;
+    long noted = inStep - 1;
+    if (!goesOn) {
+        noted = inStep;
         now = Rows();
         now.resize(places);
-        readFrom(scene);
+        readFrom(scene, noted);
         last = Rows();
     }
     std::swap(now, last);
@@ -49,10 +52,50 @@ void JointsInStep::refresh(const yade::Scene& scene)
     addUp();
     owner = const_cast<yade::Scene&>(scene).weak_from_this();
     seen.store(&scene, std::memory_order_release);
-    step.store(scene.iter, std::memory_order_release);
+    step.store(inStep, std::memory_order_release);
 }
 
-void JointsInStep::readFrom(const yade::Scene& scene)
+void JointsInStep::refreshOnRank(const yade::Scene& scene, long inStep)
+{
+    if (least != 1) {
+        least = 1;
+        sumOf.clear();
+    }
+    begin(scene, inStep, false);
+}
+
+std::vector<double> JointsInStep::give(const yade::Scene& scene, const std::vector<int>& ids)
+{
+    std::vector<double> numbers(JointsOfBody::numbers * ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (JointsOfBody* const sum = sumOfAll(scene, ids[i]))
+            sum->write(&numbers[JointsOfBody::numbers * i]);
+    return numbers;
+}
+
+void JointsInStep::take(const yade::Scene& scene, const std::vector<int>& ids, const std::vector<double>& numbers)
+{
+    if (numbers.size() != JointsOfBody::numbers * ids.size())
+        throw std::invalid_argument("what other ranks hold of " + std::to_string(ids.size()) + " bodies has "
+                                    + std::to_string(numbers.size()) + " numbers");
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (JointsOfBody* const sum = sumOfAll(scene, ids[i]))
+            sum->read(&numbers[JointsOfBody::numbers * i]);
+}
+
+// Of the body, or the clump it is of; none where it has no joint here.
+JointsOfBody* JointsInStep::sumOfAll(const yade::Scene& scene, int id)
+{
+    const auto& bodies = scene.bodies->body;
+    const auto place = static_cast<std::size_t>(id);
+    if (id < 0 || place >= bodies.size() || !bodies[place])
+        return nullptr;
+    const int clump = bodies[place]->clumpId;
+    const auto mover = static_cast<std::size_t>(clump >= 0 ? clump : id);
+    return mover < sumOf.size() && sumOf[mover] >= 0 ? &sums[static_cast<std::size_t>(sumOf[mover])] : nullptr;
+}
+
+void JointsInStep::readFrom(const yade::Scene& scene, long inStep)
 {
     const auto& bodies = scene.bodies->body;
     const auto exists = [&](int id) {
@@ -65,7 +108,7 @@ void JointsInStep::readFrom(const yade::Scene& scene)
             continue;
         const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * joint.cellDist.cast<double>())
                                                 : Vector3r(Vector3r::Zero());
-        note(i, scene.iter, keyOf(scene, joint, false, false), *phys, shift);
+        note(i, inStep, keyOf(scene, joint, false, false), *phys, shift);
     }
 }
 
@@ -107,7 +150,7 @@ void JointsInStep::list(std::size_t bodies)
     ends.clear();
     for (auto begin = places.begin(), end = begin; begin != places.end(); begin = end) {
         end = std::find_if(begin, places.end(), [&](const Place& place) { return place.body != begin->body; });
-        if (end - begin < 2)
+        if (end - begin < least)
             continue;
         sumOf[static_cast<std::size_t>(begin->body)] = static_cast<int>(ends.size());
         std::for_each(begin, end, [&](const Place& place) { entries.push_back(place.entry); });
