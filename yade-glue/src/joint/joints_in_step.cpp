@@ -68,8 +68,8 @@ std::vector<double> JointsInStep::give(const yade::Scene& scene, const std::vect
 {
     std::vector<double> numbers(JointsOfBody::numbers * ids.size());
     for (std::size_t i = 0; i < ids.size(); ++i)
-        if (JointsOfBody* const sum = sumOfAll(scene, ids[i]))
-            sum->write(&numbers[JointsOfBody::numbers * i]);
+        if (const int sum = sumOfAll(scene, ids[i]); sum >= 0)
+            sums[static_cast<std::size_t>(sum)].write(&numbers[JointsOfBody::numbers * i]);
     return numbers;
 }
 
@@ -79,20 +79,22 @@ void JointsInStep::take(const yade::Scene& scene, const std::vector<int>& ids, c
         throw std::invalid_argument("what other ranks hold of " + std::to_string(ids.size()) + " bodies has "
                                     + std::to_string(numbers.size()) + " numbers");
     for (std::size_t i = 0; i < ids.size(); ++i)
-        if (JointsOfBody* const sum = sumOfAll(scene, ids[i]))
-            sum->read(&numbers[JointsOfBody::numbers * i]);
+        if (const int sum = sumOfAll(scene, ids[i]); sum >= 0) {
+            sums[static_cast<std::size_t>(sum)].read(&numbers[JointsOfBody::numbers * i]);
+            areShared[static_cast<std::size_t>(sum)] = true;
+        }
 }
 
-// Of the body, or the clump it is of; none where it has no joint here.
-JointsOfBody* JointsInStep::sumOfAll(const yade::Scene& scene, int id)
+// The sum of the body, or the clump it is of; -1 where it has no joint here.
+int JointsInStep::sumOfAll(const yade::Scene& scene, int id) const
 {
     const auto& bodies = scene.bodies->body;
     const auto place = static_cast<std::size_t>(id);
     if (id < 0 || place >= bodies.size() || !bodies[place])
-        return nullptr;
+        return -1;
     const int clump = bodies[place]->clumpId;
     const auto mover = static_cast<std::size_t>(clump >= 0 ? clump : id);
-    return mover < sumOf.size() && sumOf[mover] >= 0 ? &sums[static_cast<std::size_t>(sumOf[mover])] : nullptr;
+    return mover < sumOf.size() ? sumOf[mover] : -1;
 }
 
 void JointsInStep::readFrom(const yade::Scene& scene, long inStep)
@@ -157,17 +159,35 @@ void JointsInStep::list(std::size_t bodies)
         ends.push_back(static_cast<std::uint32_t>(entries.size()));
     }
     sums.resize(ends.size());
+    areShared.resize(ends.size());
 }
 
 void JointsInStep::addUp()
 {
+    const auto normalOf = [&](const Entry& entry) {
+        const JointLoad& load = last.rows[entry.place].load;
+        return entry.outwards ? load.heldNormal : Vector3r(-load.heldNormal);
+    };
+    // Blocks between blocks mostly have one joint on each side.
+    constexpr std::ptrdiff_t few = 6;
+    const auto share = [&](auto begin, auto end) {
+        for (auto one = begin; one != end; ++one)
+            for (auto other = begin; other != one; ++other)
+                if (JointsOfBody::share(normalOf(*one), normalOf(*other)))
+                    return true;
+        return false;
+    };
     auto entry = entries.begin();
     for (std::size_t i = 0; i < ends.size(); ++i) {
+        const auto end = entries.begin() + ends[i];
         sums[i].clear();
-        for (const auto end = entries.begin() + ends[i]; entry != end; ++entry) {
-            const Row& row = last.rows[entry->place];
-            sums[i].add(row.load, entry->outwards ? row.load.heldPoint : row.point2, entry->outwards);
-        }
+        areShared[i] = end - entry > few || share(entry, end);
+        if (areShared[i])
+            std::for_each(entry, end, [&](const Entry& one) {
+                const Row& row = last.rows[one.place];
+                sums[i].add(row.load, one.outwards ? row.load.heldPoint : row.point2, one.outwards);
+            });
+        entry = end;
     }
 }
 
@@ -185,7 +205,8 @@ JointSide JointsInStep::sideOf(int body, const JointLoad& load, const Vector3r& 
 {
     const auto id = static_cast<std::size_t>(body);
     if (body >= 0 && load.heldStiffness > 0 && id < sumOf.size() && sumOf[id] >= 0)
-        return sums[static_cast<std::size_t>(sumOf[id])].without(load, point, outwards);
+        if (const auto sum = static_cast<std::size_t>(sumOf[id]); areShared[sum])
+            return sums[sum].without(load, point, outwards);
     JointSide alone;
     alone.known = body >= 0 && load.heldStiffness > 0;
     return alone;

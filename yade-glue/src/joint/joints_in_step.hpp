@@ -19,7 +19,7 @@
 namespace potential_particles {
 
 // Of the laws of joints of all loops, since a body may have joints by several. Members of a clump are one body.
-class JointsInStep {
+class [[gnu::visibility("hidden")]] JointsInStep {
 public:
     static JointsInStep& all();
 
@@ -85,7 +85,7 @@ private:
     bool isListed(long noted, std::size_t bodies);
     void list(std::size_t bodies);
     void addUp();
-    JointsOfBody* sumOfAll(const yade::Scene& scene, int id);
+    int sumOfAll(const yade::Scene& scene, int id) const;
     JointSide sideOf(int body, const JointLoad& load, const Eigen::Vector3d& point, bool outwards) const;
 
     Rows now, last; // of this step and the last one
@@ -96,6 +96,7 @@ private:
     std::vector<int> sumOf; // by body, in `sums`; -1 of a body with fewer joints than `least`
     int least = 2; // a joint that is alone has nothing beside it; 1 where other ranks may hold more of them
     std::vector<JointsOfBody> sums;
+    std::vector<char> areShared; // by sum: some of its joints are on one side; else it is empty
 
     boost::weak_ptr<yade::Factorable> owner; // the scene; its address may be used again
     std::mutex mutex;
