@@ -86,9 +86,14 @@ public:
         const Nearest nearest = nearestTo(outwards ? load.heldNormal : Eigen::Vector3d(-load.heldNormal));
         const Eigen::Vector3d here = point - origin;
         double shares[most] = {};
+        bool isAlone = true;
         for (int i = 0; i < count; ++i)
-            if (const double cosine = nearest.cosines[i]; cosine > 0 && !(i == nearest.face && faces[i].count == 1))
+            if (const double cosine = nearest.cosines[i]; cosine > leastCosine && !(i == nearest.face && faces[i].count == 1)) {
                 shares[i] = std::min(1.0, cosine * cosine);
+                isAlone = false;
+            }
+        if (isAlone)
+            return alone;
         Sum rest;
         rest.set(shares[0], faces[0].sum);
         for (int i = 1; i < count; ++i)
@@ -102,6 +107,9 @@ public:
     }
 
     void clear() { count = 0; }
+
+    // Whether two joints are on one side of a body at all, by their normals; where not, nothing need be added.
+    static bool share(const Eigen::Vector3d& one, const Eigen::Vector3d& other) { return one.dot(other) > leastCosine; }
 
     // As numbers, for another process.
     static constexpr int numbers = 1 + 3 + 6 * 18;
@@ -119,6 +127,7 @@ public:
 private:
     static constexpr int most = 6;
     static constexpr double sameNormal = 1e-8; // 1 - cosine
+    static constexpr double leastCosine = 1e-6; // faces at right angles are that to rounding
     static constexpr double rounding = 1e-12; // of what is left of a difference
 
     // About `origin`. Numbers in a row, which the compiler adds up in one loop.
@@ -231,9 +240,9 @@ private:
         }
     }
 
-    Face faces[most];
-    int count = 0;
+    int count = 0; // first: of most bodies nothing else is read
     Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+    Face faces[most];
 };
 
 } // namespace potential_particles

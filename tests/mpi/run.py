@@ -55,11 +55,7 @@ def report(folder, name):
     return json.loads((folder / f"{name}.json").read_text())
 
 
-# What dashpots of joints at a border add: a rank sums those of a body's joints that it holds (docs/scale.md).
-AT_BORDERS = 1e-6
-
-
-def same(folder, expected, found, rounding=1e-11):
+def same(folder, expected, found):
     """States of two runs, in sizes and seconds of the scene; it is short enough for rounding not to grow. A contact
     that comes to another rank is solved anew, with the regularisation of flat faces, which moves a point by up to 1e-10
     of the size and is left off while a contact is carried on: spins see it.
@@ -67,7 +63,7 @@ def same(folder, expected, found, rounding=1e-11):
     first, second = (np.load(folder / f"{name}.npz") for name in (expected, found))
     for what in ("position", "orientation", "velocity", "angular_velocity"):
         difference = float(np.abs(first[what] - second[what]).max())
-        most = 10 * rounding if what == "angular_velocity" else rounding
+        most = 1e-10 if what == "angular_velocity" else 1e-11
         check.true(difference < most, f"{found}: {what} differs from that of {expected} by {difference:.1e}")
 
 
@@ -109,7 +105,7 @@ def joints(folder):
     first, last = serial["bonds"][0], serial["bonds"][-1]
     check.true(first[0] > 20 and 0 < last[0] < first[0], f"bonds and broken joints as it goes: {serial['bonds']}")
     for ranks in (2, 3):
-        same(folder, "joints1", f"joints{ranks}", AT_BORDERS)
+        same(folder, "joints1", f"joints{ranks}")
         found = report(folder, f"joints{ranks}")
         check.true(found["bonds"] == serial["bonds"],
                    f"bonds on {ranks} ranks: {found['bonds']}, on one {serial['bonds']}")
@@ -117,7 +113,7 @@ def joints(folder):
     check.true(found["across"] > 20, f"too few joints across borders for a test of them: {found['across']}")
     for ranks, of in ((1, 3), (3, 1)):
         sound(ranks, "resumed", folder, of, "joints")
-        same(folder, "joints1", f"joints_resumed{ranks}_of_{of}", AT_BORDERS)
+        same(folder, "joints1", f"joints_resumed{ranks}_of_{of}")
         check.true(
             report(folder, f"joints_resumed{ranks}_of_{of}")["bonds"] == last, f"bonds after a save on {of} ranks")
 

@@ -349,7 +349,9 @@ for contact in O.interactions:
 frictions = lambda: {(i.id1, i.id2): (i.phys.tangensOfFrictionAngle, i.phys.cohesion)
                      for i in O.interactions if i.isReal}
 reduced = frictions()
-check.true(len(reduced) >= 2, f"joints: {reduced}")
+# Nothing presses the two that slide on each other: their own joint, without friction, may have opened.
+on_ramp = {(int(ids[0]), int(ids[2])), (int(ids[1]), int(ids[3]))}
+check.true(on_ramp <= set(reduced), f"joints: {reduced}")
 O.save("reduced.yade.gz")
 run(1)
 check.equal(frictions(), reduced, "joints keep what a script gave them")

@@ -1,71 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # One law of joints however a boundary is cut: restitution, spin, energy, and what other bodies side by side change.
 import math
-import random
 
-from harness import *
+import numpy as np
 import potential_particles
-from potential_particles import shapes
 import yade
+from tiles import *
 
 check = Checks()
-STIFFNESS, HALF, RADIUS = 1e9, 0.5, 0.01
-
-
-def scene(loop=yade.ConicInteractionLoop, periodic=False, **material):
-    O.reset()
-    O.periodic = periodic
-    given = dict(normalStiffness=STIFFNESS, shearStiffness=STIFFNESS / 2, frictionAngle=math.atan(0.5), density=2000.0)
-    O.materials.append(yade.ConicJointMat(**{**given, **material}))
-    kinds = ("ConicPP_ConicPP", "Wall_ConicPP", "Facet_ConicPP", "Box_ConicPP")
-    O.engines = [
-        yade.ForceResetter(),
-        yade.InsertionSortCollider(
-            [yade.PotentialParticle2AABB(), yade.Bo1_Wall_Aabb(), yade.Bo1_Facet_Aabb(), yade.Bo1_Box_Aabb()],
-            verletDist=0.01),
-        loop([getattr(yade, f"Ig2_{kind}_ScGeom")(patch=True) for kind in kinds],
-             [yade.Ip2_ConicJointMat_ConicJointMat_ConicJointPhys()], [yade.Law2_ScGeomConicPP_ConicJointPhys()]),
-        yade.NewtonIntegrator(damping=0.0, exactAsphericalRot=True),
-    ]
-
-
-def grid(count, width=1.3):
-    """Triangles of a square with so many squares along each side."""
-    at = [(i / count - 0.5) * width for i in range(count + 1)]
-    return [triangle for i in range(count) for j in range(count)
-            for a, b, c, d in [[(at[i], at[j]), (at[i + 1], at[j]), (at[i + 1], at[j + 1]), (at[i], at[j + 1])]]
-            for triangle in ((a, b, c), (a, c, d))]
-
-
-def fan(count, width=1.4):
-    """4 or 8 triangles about the middle of a square."""
-    corners = [(1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1)]
-    rim = [(0.5 * width * x, 0.5 * width * y) for x, y in (corners if count == 8 else corners[1::2])]
-    return [((0, 0), rim[i], rim[(i + 1) % count]) for i in range(count)]
-
-
-def floor(kind, turn=Quaternion.Identity):
-    if kind == "wall":
-        O.bodies.append(utils.wall((0, 0, 0), axis=2, sense=1))
-    elif kind == "box":
-        O.bodies.append(utils.box(turn * Vector3(0, 0, -0.5), (2, 2, 0.5), fixed=True, orientation=turn))
-    elif isinstance(kind, int):
-        # So many blocks along each side, face beside face.
-        width = 1.2 / kind
-        block = shapes.from_vertices([(x * width / 2, y * width / 2, 0.2 * z) for x in (-1, 1) for y in (-1, 1)
-                                      for z in (-1, 1)], rounding=1e-4, k=0.0)
-        for i in range(kind):
-            for j in range(kind):
-                place = Vector3((i + 0.5) * width - 0.6, (j + 0.5) * width - 0.6, -0.2)
-                O.bodies.append(potential_particles.body(block, position=turn * place, orientation=turn, fixed=True))
-    else:
-        for triangle in kind:
-            O.bodies.append(utils.facet([turn * Vector3(*corner, 0) for corner in triangle], fixed=True))
-
-
-def block(height=0.0, turn=Quaternion.Identity, place=(0, 0), shape=None, radius=RADIUS):
-    shape = shape or cube(r=radius, k=0.0, half=HALF)
-    return O.bodies[add(shape, turn * Vector3(*place, HALF + height), turn)]
 
 
 def rebound(kind, restitution, step=0.01, turn=Quaternion.Identity, loop=yade.ConicInteractionLoop, shape=None,
@@ -140,11 +82,42 @@ def brake(kind, place=(0, 0)):
     return -O.forces.t(body.id)[2] / (0.5 * O.forces.f(body.id)[2] * 0.998 * 0.382598)
 
 
-# (What a tile that is a triangle bears beside its centre is not known better from its moments.)
-for name, kind, allowed in (("a wall", "wall", 2e-3), ("2 triangles", grid(1), 0.02), ("4 triangles", fan(4), 0.03),
-                            ("8 triangles", fan(8), 0.01), ("200 triangles", grid(10), 2e-3), ("4 blocks", 2, 0.01)):
+def points_of(spots):
+    """The 16 points of the law for a tile that these fill: on two ellipses with its second moments, at its mean
+    distance from its centre.
+    """
+    middle = spots.mean(axis=0)
+    values, axes = np.linalg.eigh((spots - middle).T @ (spots - middle) / len(spots))
+    angles = np.radians(22.5 + 45 * np.arange(8))
+    ring = np.sqrt(values) * np.column_stack([np.cos(angles), np.sin(angles)]) @ axes.T
+    ring *= np.hypot(*(spots - middle).T).mean() / np.hypot(*ring.T).mean()
+    off = math.sqrt(max(0.0, values.sum() / (ring**2).sum(axis=1).mean() - 1))
+    return np.vstack([middle + (1 + sign * off) * ring for sign in (1, -1)])
+
+
+def of_the_law(tiles, place):
+    """What friction at the points of all tiles does, over what it does spread over the face."""
+    # So many spots along the two sides that none is on the edge of a tile.
+    u, v = np.meshgrid(*((np.arange(number) + 0.5) / number - 0.5 for number in (300, 302)))
+    face = 0.998 * np.column_stack([u.ravel(), v.ravel()]) + place
+    total = 0.0
+    for tile in tiles:
+        a, b, c = (np.array(corner) for corner in tile)
+        left = lambda p, q: (q[0] - p[0]) * (face[:, 1] - p[1]) > (q[1] - p[1]) * (face[:, 0] - p[0])
+        spots = face[left(a, b) & left(b, c) & left(c, a)]
+        if len(spots):
+            total += len(spots) * np.hypot(*(points_of(spots) - place).T).mean()
+    return total / len(face) / (0.998 * 0.382598)
+
+
+# Points with its moments are not a triangle about whose corner the body turns: 1.5 and 2.1 % on 2 and 4 of them.
+for name, kind, allowed in (("a wall", "wall", 0), ("2 triangles", grid(1), 0.022), ("4 triangles", fan(4), 0.022),
+                            ("8 triangles", fan(8), 0.01), ("200 triangles", grid(10), 0.002)):
     for place in ((0, 0), (0.05, 0.02)):
-        check.close(brake(kind, place), 1.0, allowed, f"a spin on {name} at {place}")
+        expected = 1.0 if kind == "wall" else of_the_law(kind, np.array(place))
+        check.close(expected, 1.0, allowed, f"friction at points of {name} at {place}")
+        check.close(brake(kind, place), expected, 2e-3, f"a spin on {name} at {place}")
+check.close(brake(2), 1.0, 0.01, "a spin on 4 blocks")
 
 # --- other bodies beside it, of other materials -----------------------------------------------------------------
 
@@ -183,34 +156,5 @@ def landed(saved, periodic=False):
 straight = landed(False)
 check.true(max(abs(a - b) for a, b in zip(landed(True), straight)) < 1e-6, "from a save")
 check.true(max(abs(a - b) for a, b in zip(landed(False, True), straight)) < 1e-9, "in a periodic cell")
-
-# --- energy at the advised step -------------------------------------------------------------------------------------
-
-seed = random.SystemRandom().randrange(10**6)
-draw = random.Random(seed)
-for number in range(4):
-    restitution = draw.choice((0.01, 0.05, 1.0, draw.uniform(0.01, 1)))
-    scene(restitution=restitution, frictionAngle=draw.choice((0.0, 0.5)))
-    turn = Quaternion(Vector3(*(draw.gauss(0, 1) for _ in range(3))).normalized(), draw.uniform(0, 3))
-    count = draw.choice((1, 2, 4))
-    floor(grid(count, 2.2), turn)
-    body = block(draw.uniform(0, 1e-4) + 0.012, turn)
-    body.state.ori = turn * Quaternion(Vector3(draw.gauss(0, 1), draw.gauss(0, 1), 0.1).normalized(),
-                                       draw.choice((0.0, draw.uniform(0, 0.02))))
-    body.state.vel = turn * Vector3(draw.uniform(-0.2, 0.2), draw.uniform(-0.2, 0.2), draw.uniform(-0.5, -0.1))
-
-    def energy():
-        local = body.state.ori.conjugate() * body.state.angMom
-        return 0.5 * body.state.mass * body.state.vel.squaredNorm() + 0.5 * sum(local[i]**2 / body.state.inertia[i]
-                                                                                for i in range(3))
-
-    O.dt = potential_particles.critical_time_step()
-    start, met = energy(), False
-    while O.iter < 40000 and not (met and not O.interactions.countReal()):
-        run(5)
-        met = met or O.interactions.countReal() > 0
-    check.true(met, f"it lands (seed {seed}, number {number})")
-    check.true(energy() < start * (1 + 1e-4),
-               f"energy {energy() / start} on {2 * count**2} triangles, restitution {restitution}, seed {seed}")
 
 check.finish()

@@ -5,6 +5,8 @@
 #include "joint_body.hpp"
 
 #include <algorithm>
+#include <stdexcept>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -18,11 +20,6 @@ JointsInStep& JointsInStep::all()
     return joints;
 }
 
-bool JointsInStep::isOfLastStep(const yade::Scene& scene) const
-{
-    return step.load(std::memory_order_relaxed) + 1 == scene.iter && owner.lock().get() == &scene;
-}
-
 void JointsInStep::refresh(const yade::Scene& scene)
 {
     const auto isSeen = [&] {
@@ -33,13 +30,19 @@ void JointsInStep::refresh(const yade::Scene& scene)
     const std::lock_guard<std::mutex> lock(mutex);
     if (isSeen())
         return;
+    const bool goesOn = step.load(std::memory_order_relaxed) + 1 == scene.iter && owner.lock().get() == &scene;
+    begin(scene, scene.iter, goesOn);
+}
+
+void JointsInStep::begin(const yade::Scene& scene, long inStep, bool goesOn)
+{
     const std::size_t places = scene.interactions->currSize, bodies = scene.bodies->body.size();
-    long noted = scene.iter - 1;
-    if (!isOfLastStep(scene)) {
-        noted = scene.iter;
+    long noted = inStep - 1;
+    if (!goesOn) {
+        noted = inStep;
         now = Rows();
         now.resize(places);
-        readFrom(scene);
+        readFrom(scene, noted);
         last = Rows();
     }
     std::swap(now, last);
@@ -49,10 +52,52 @@ void JointsInStep::refresh(const yade::Scene& scene)
     addUp();
     owner = const_cast<yade::Scene&>(scene).weak_from_this();
     seen.store(&scene, std::memory_order_release);
-    step.store(scene.iter, std::memory_order_release);
+    step.store(inStep, std::memory_order_release);
 }
 
-void JointsInStep::readFrom(const yade::Scene& scene)
+void JointsInStep::refreshOnRank(const yade::Scene& scene, long inStep)
+{
+    if (least != 1) {
+        least = 1;
+        sumOf.clear();
+    }
+    begin(scene, inStep, false);
+}
+
+std::vector<double> JointsInStep::give(const yade::Scene& scene, const std::vector<int>& ids)
+{
+    std::vector<double> numbers(JointsOfBody::numbers * ids.size());
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (const int sum = sumOfAll(scene, ids[i]); sum >= 0)
+            sums[static_cast<std::size_t>(sum)].write(&numbers[JointsOfBody::numbers * i]);
+    return numbers;
+}
+
+void JointsInStep::take(const yade::Scene& scene, const std::vector<int>& ids, const std::vector<double>& numbers)
+{
+    if (numbers.size() != JointsOfBody::numbers * ids.size())
+        throw std::invalid_argument("what other ranks hold of " + std::to_string(ids.size()) + " bodies has "
+                                    + std::to_string(numbers.size()) + " numbers");
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        if (const int sum = sumOfAll(scene, ids[i]); sum >= 0) {
+            sums[static_cast<std::size_t>(sum)].read(&numbers[JointsOfBody::numbers * i]);
+            areShared[static_cast<std::size_t>(sum)] = true;
+        }
+}
+
+// The sum of the body, or the clump it is of; -1 where it has no joint here.
+int JointsInStep::sumOfAll(const yade::Scene& scene, int id) const
+{
+    const auto& bodies = scene.bodies->body;
+    const auto place = static_cast<std::size_t>(id);
+    if (id < 0 || place >= bodies.size() || !bodies[place])
+        return -1;
+    const int clump = bodies[place]->clumpId;
+    const auto mover = static_cast<std::size_t>(clump >= 0 ? clump : id);
+    return mover < sumOf.size() ? sumOf[mover] : -1;
+}
+
+void JointsInStep::readFrom(const yade::Scene& scene, long inStep)
 {
     const auto& bodies = scene.bodies->body;
     const auto exists = [&](int id) {
@@ -65,7 +110,7 @@ void JointsInStep::readFrom(const yade::Scene& scene)
             continue;
         const Vector3r shift = scene.isPeriodic ? Vector3r(scene.cell->hSize * joint.cellDist.cast<double>())
                                                 : Vector3r(Vector3r::Zero());
-        note(i, scene.iter, keyOf(scene, joint, false, false), *phys, shift);
+        note(i, inStep, keyOf(scene, joint, false, false), *phys, shift);
     }
 }
 
@@ -107,24 +152,42 @@ void JointsInStep::list(std::size_t bodies)
     ends.clear();
     for (auto begin = places.begin(), end = begin; begin != places.end(); begin = end) {
         end = std::find_if(begin, places.end(), [&](const Place& place) { return place.body != begin->body; });
-        if (end - begin < 2)
+        if (end - begin < least)
             continue;
         sumOf[static_cast<std::size_t>(begin->body)] = static_cast<int>(ends.size());
         std::for_each(begin, end, [&](const Place& place) { entries.push_back(place.entry); });
         ends.push_back(static_cast<std::uint32_t>(entries.size()));
     }
     sums.resize(ends.size());
+    areShared.resize(ends.size());
 }
 
 void JointsInStep::addUp()
 {
+    const auto normalOf = [&](const Entry& entry) {
+        const JointLoad& load = last.rows[entry.place].load;
+        return entry.outwards ? load.heldNormal : Vector3r(-load.heldNormal);
+    };
+    // Blocks between blocks mostly have one joint on each side.
+    constexpr std::ptrdiff_t few = 6;
+    const auto share = [&](auto begin, auto end) {
+        for (auto one = begin; one != end; ++one)
+            for (auto other = begin; other != one; ++other)
+                if (JointsOfBody::share(normalOf(*one), normalOf(*other)))
+                    return true;
+        return false;
+    };
     auto entry = entries.begin();
     for (std::size_t i = 0; i < ends.size(); ++i) {
+        const auto end = entries.begin() + ends[i];
         sums[i].clear();
-        for (const auto end = entries.begin() + ends[i]; entry != end; ++entry) {
-            const Row& row = last.rows[entry->place];
-            sums[i].add(row.load, entry->outwards ? row.load.heldPoint : row.point2, entry->outwards);
-        }
+        areShared[i] = end - entry > few || share(entry, end);
+        if (areShared[i])
+            std::for_each(entry, end, [&](const Entry& one) {
+                const Row& row = last.rows[one.place];
+                sums[i].add(row.load, one.outwards ? row.load.heldPoint : row.point2, one.outwards);
+            });
+        entry = end;
     }
 }
 
@@ -142,7 +205,8 @@ JointSide JointsInStep::sideOf(int body, const JointLoad& load, const Vector3r& 
 {
     const auto id = static_cast<std::size_t>(body);
     if (body >= 0 && load.heldStiffness > 0 && id < sumOf.size() && sumOf[id] >= 0)
-        return sums[static_cast<std::size_t>(sumOf[id])].without(load, point, outwards);
+        if (const auto sum = static_cast<std::size_t>(sumOf[id]); areShared[sum])
+            return sums[sum].without(load, point, outwards);
     JointSide alone;
     alone.known = body >= 0 && load.heldStiffness > 0;
     return alone;

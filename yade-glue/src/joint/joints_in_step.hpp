@@ -19,13 +19,20 @@
 namespace potential_particles {
 
 // Of the laws of joints of all loops, since a body may have joints by several. Members of a clump are one body.
-class JointsInStep {
+class [[gnu::visibility("hidden")]] JointsInStep {
 public:
     static JointsInStep& all();
 
     // Call in each step before the others, from any thread: the first one takes in what the last step has noted, or,
     // after a step without joints or a load, what the joints themselves remember; the others wait for it.
     void refresh(const yade::Scene& scene);
+
+    // On ranks, of which one holds all joints of its own bodies, but not of the others. Before the step `inStep`, while
+    // no law acts: takes in what the joints here remember.
+    void refreshOnRank(const yade::Scene& scene, long inStep);
+    // What these bodies hold, as numbers; and what other ranks gave of theirs.
+    std::vector<double> give(const yade::Scene& scene, const std::vector<int>& ids);
+    void take(const yade::Scene& scene, const std::vector<int>& ids, const std::vector<double>& numbers);
 
     // Of which bodies a joint is. Bodies: the clumps, of members; -1 of one that no force moves: nobody asks for its
     // side.
@@ -73,11 +80,12 @@ private:
         bool outwards;
     };
 
-    bool isOfLastStep(const yade::Scene& scene) const;
-    void readFrom(const yade::Scene& scene);
+    void begin(const yade::Scene& scene, long inStep, bool goesOn);
+    void readFrom(const yade::Scene& scene, long inStep);
     bool isListed(long noted, std::size_t bodies);
     void list(std::size_t bodies);
     void addUp();
+    int sumOfAll(const yade::Scene& scene, int id) const;
     JointSide sideOf(int body, const JointLoad& load, const Eigen::Vector3d& point, bool outwards) const;
 
     Rows now, last; // of this step and the last one
@@ -85,8 +93,10 @@ private:
     std::vector<Key> keys;
     std::vector<Entry> entries;
     std::vector<std::uint32_t> ends; // in `entries`, by sum
-    std::vector<int> sumOf; // by body, in `sums`; -1 of a body with one joint at most
+    std::vector<int> sumOf; // by body, in `sums`; -1 of a body with fewer joints than `least`
+    int least = 2; // a joint that is alone has nothing beside it; 1 where other ranks may hold more of them
     std::vector<JointsOfBody> sums;
+    std::vector<char> areShared; // by sum: some of its joints are on one side; else it is empty
 
     boost::weak_ptr<yade::Factorable> owner; // the scene; its address may be used again
     std::mutex mutex;

@@ -8,12 +8,14 @@
 #include "class_table.hpp"
 #include "drawing/gl1_potential_particle_conic.hpp"
 #include "joint/conic_joint.hpp"
+#include "joint/joints_in_step.hpp"
 #include "joint/patch_surface.hpp"
 #include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
 #include "rock/rock.hpp"
 #include "shape/conic_potential_particle.hpp"
 #include "shape/plane_lists.hpp"
+#include "python_bytes.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
@@ -42,6 +44,18 @@ void setListOf(yade::PotentialParticle& shape, const std::string& name, const py
 {
     if (!pp::setList(shape, name, value))
         throw std::invalid_argument("PotentialParticle has no list '" + name + "'");
+}
+
+// On ranks; see joints_in_step.hpp. ids: int32 a row, as bytes; so are the numbers.
+const yade::Scene& scene() { return *Singleton<yade::Omega>::instance().getScene(); }
+void refreshJoints(long inStep) { pp::JointsInStep::all().refreshOnRank(scene(), inStep); }
+py::object giveJoints(const py::object& ids)
+{
+    return pp::bytes(pp::JointsInStep::all().give(scene(), pp::rowsOf<int>(ids)));
+}
+void takeJoints(const py::object& ids, const py::object& numbers)
+{
+    pp::JointsInStep::all().take(scene(), pp::rowsOf<int>(ids), pp::rowsOf<double>(numbers));
 }
 
 // Enters our classes into YADE's factory, class table and Python module yade.wrapper, in the order of class_table.inc.
@@ -91,6 +105,9 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("stored_particles", &storedParticles);
     py::def("retired_count", &pp::retiredCount);
     py::def("set_list", &setListOf);
+    py::def("refresh_joints", &refreshJoints);
+    py::def("give_joints", &giveJoints);
+    py::def("take_joints", &takeJoints);
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("patch_surface", &pp::patchSurface);
     py::def("pack", &pp::packContainer);

@@ -25,6 +25,7 @@ is an ordinary serial run.
     division.py  which worker gets which bodies
     splitting.py the first division of a scene
     balance.py   bodies that change their worker
+    joints.py    what bodies hold by joints, across borders
     stepping.py  steps, and what can go wrong in them
     results.py   bodies, contacts, counters and failures of all workers
     saving.py    one file with the whole scene

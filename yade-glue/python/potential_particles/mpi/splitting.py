@@ -7,9 +7,12 @@ continue differently.
 """
 import yade
 
+from .joints import exchange
 from .ranks import mpy, share
 
 O = yade.O
+
+_yades_check = mpy.checkAndCollide
 
 
 def split():
@@ -21,19 +24,22 @@ def split():
     for first, second, geometry, physics in contacts:
         if _here(first) and _here(second):
             _make(first, second, geometry, physics)
-    _collide_after_the_first_step()
+    _at_the_end_of_steps()
+    exchange(O.iter)
 
 
-def _collide_after_the_first_step():
+def _at_the_end_of_steps():
     """Boxes are those of balls until BoundWatch has run once, and would stay so until a body leaves one."""
-    check = mpy.checkAndCollide
+    first = True
 
-    def once():
-        mpy.checkAndCollide = check
-        mpy.parallelCollide()
-        return False
+    def check():
+        nonlocal first
+        again = mpy.parallelCollide() if first else _yades_check()
+        first = False
+        exchange(O.iter + 1)
+        return again
 
-    mpy.checkAndCollide = once
+    mpy.checkAndCollide = check
 
 
 def _label_collider():
