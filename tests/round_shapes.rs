@@ -107,8 +107,8 @@ fn cones_keep_their_size() {
     }
 }
 
-/// Points of an ellipsoid, as few planes and as many: the volume of the hull, and diameters within 0.2 % of its own, but
-/// for the thinnest, which has most of them there.
+/// Points of an ellipsoid, as few planes and as many: the volume of the hull, and diameters within 0.2 % of its own; of
+/// the thinnest, most of them.
 #[test]
 fn fitted_scans_keep_their_size() {
     for (axes, planes, mean, most) in [

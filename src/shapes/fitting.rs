@@ -3,8 +3,8 @@
 //! The facets of the convex hull are gathered into N groups of like direction, by Lloyd's method on their normals with
 //! their areas as weights (the metric L2,1 of Cohen-Steiner, Alliez & Desbrun 2004, Variational shape approximation).
 //! From planes with the mean direction of each group the fit begins: directions, offsets and r change until the heights
-//! of the particle, along directions all around, are those of the hull (Levenberg and Marquardt). What is missing counts
-//! as a share of the height there, in the least squares and then to the sixth power, by which the largest comes down. A
+//! of the particle, along directions all around, are those of the hull (Levenberg and Marquardt). What is missing is
+//! taken as a share of the height there, first squared, then to the sixth power, by which the largest comes down. A
 //! plane raises the height at a point x by its weight there (`touching`) times what it moves there, n·x − d; what r
 //! grows raises it by the sum of these weights times ⟨n·x − d⟩/r. Of several r to begin with the one that comes nearest
 //! is taken, and the whole is scaled to the volume that is given.
