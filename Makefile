@@ -6,7 +6,7 @@ Contact detection between potential particles.
   make demo     set up, build, and let 200 pyramids fall in YADE; results in out/pyramids
   make test     set up, build, and test every part: at most a quarter of an hour on two processors
   make check    before each commit: a quick build, the Rust and C tests and a scene of YADE, in a minute once built
-  make test-all make test, and what takes long: valgrind, sanitizers, all scenes of YADE with two threads, runs that are killed and loaded
+  make test-all make test, and what takes long: valgrind, sanitizers, all scenes of YADE with two threads, runs that are killed and loaded, a little of each measurement
 
   make wedge    a wedge on two joints: at which friction angle does it slide? results in out/wedge
   make classics ten closed forms that block codes are judged by, among them incline, arch and toppling; results in out/classics

@@ -107,15 +107,21 @@ fn cones_keep_their_size() {
     }
 }
 
-/// Points of an ellipsoid, as few planes: the volume of the hull, and of all diameters most within 0.2 %.
+/// Points of an ellipsoid, as few planes and as many: the volume of the hull, and diameters within 0.2 % of its own; of
+/// the thinnest, most of them.
 #[test]
 fn fitted_scans_keep_their_size() {
-    for (axes, mean, most) in [([1.0, 1.0, 1.0], 1e-3, 2.5e-3), ([1.0, 0.7, 0.5], 1.5e-3, 5e-3)] {
+    for (axes, planes, mean, most) in [
+        ([1.0, 1.0, 1.0], 60, 4e-4, 1.5e-3),
+        ([1.0, 0.7, 0.5], 60, 6e-4, 2e-3),
+        ([1.0, 0.5, 0.3], 60, 1.2e-3, 3e-3),
+        ([1.0, 0.7, 0.5], 200, 6e-4, 2e-3),
+    ] {
         let volume = 4.0 / 3.0 * PI * axes.iter().product::<f64>();
         let points: Vec<[f64; 3]> =
             directions(1500).map(|at| (at.component_mul(&Vector3::from(axes)) + Vector3::repeat(3.0)).into()).collect();
-        let shape = shapes::fitted(&points, 60, &Rounding::chosen(0.02)).unwrap();
-        assert!(shape.particle.plane_count() <= 60);
+        let shape = shapes::fitted(&points, planes, &Rounding::chosen(0.02)).unwrap();
+        assert!(shape.particle.plane_count() <= planes);
         within(shape.mass.volume, volume, 5e-3, "its volume");
         within(shape.mass.volume, shape.sharp_volume, 1e-12, "that of the hull");
         let middle = shape.pose().to_local(&Vector3::repeat(3.0));

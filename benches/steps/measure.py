@@ -2,7 +2,8 @@
 """Times the steps of one scene, in YADE. Environment: JOB, an object in JSON with
 
 scene: pyramids, spheres, or a name of scenes.KINDS; count, copies, best: of a pile, see piles.py; kept: where its bodies
-are kept (settled and written there, and nothing measured, if they are not); warming: steps before the clock starts; windows and steps: of each;
+are kept (settled and written there, and nothing measured, if they are not); part: one in so many rocks settles, in as
+many of the steps; warming: steps before the clock starts; windows and steps: of each;
 save: a file, through which the scene also goes; result: where the JSON goes.
 """
 
@@ -12,6 +13,7 @@ import pickle
 import resource
 import sys
 import time
+from dataclasses import replace
 from pathlib import Path
 
 HERE = Path(sys.argv[0]).resolve().parent
@@ -33,7 +35,8 @@ def main():
         if of_pile:
             piles.settle(JOB["scene"], JOB["count"], kept)
         else:
-            scenes.settle(scenes.KINDS[JOB["scene"]], kept)
+            kind, part = scenes.KINDS[JOB["scene"]], JOB["part"]
+            scenes.settle(replace(kind, count=kind.count // part, settling=kind.settling // part), kept)
         return
     started, before = time.perf_counter(), memory()
     if of_pile:

@@ -26,6 +26,7 @@ class Run:
     threads: int = 1
     best: bool = True
     once: bool = False  # long: in the first turn alone, and it is saved and loaded, too
+    part: int = 1  # of a scene's rocks and settling, one in so many
 
     @property
     def size(self):
@@ -37,9 +38,9 @@ def settled(out, run):
     name = run.scene.replace(" ", "_").replace(",", "")
     # What made the bodies is part of the name: another scene is settled anew.
     made_by = hashlib.sha256((HERE / "scenes.py").read_bytes()).hexdigest()[:8]
-    kept = out / (f"{name}_{run.count}.npz" if run.count else f"{name}_{made_by}.pickle")
+    kept = out / (f"{name}_{run.count}.npz" if run.count else f"{name}_{made_by}_{run.part}.pickle")
     if not kept.exists():
-        _measure(run, PACKAGE, kept, {"scene": run.scene, "count": run.count, "kept": str(kept)})
+        _measure(run, PACKAGE, kept, {"scene": run.scene, "count": run.count, "part": run.part, "kept": str(kept)})
     return kept
 
 

@@ -2,10 +2,12 @@
 //!
 //! The facets of the convex hull are gathered into N groups of like direction, by Lloyd's method on their normals with
 //! their areas as weights (the metric L2,1 of Cohen-Steiner, Alliez & Desbrun 2004, Variational shape approximation).
-//! From planes with the mean direction of each group the fit begins: directions and offsets change until the heights of
-//! the particle, along directions all around, are those of the hull, in the least squares (Levenberg and Marquardt). A
-//! plane raises the height at a point x by its weight there (`touching`) times what it moves there, n·x − d. Of several
-//! r the one that comes nearest is taken, and the whole is scaled to the volume that is given.
+//! From planes with the mean direction of each group the fit begins: directions, offsets and r change until the heights
+//! of the particle, along directions all around, are those of the hull (Levenberg and Marquardt). What is missing is
+//! taken as a share of the height there, first squared, then to the sixth power, by which the largest comes down. A
+//! plane raises the height at a point x by its weight there (`touching`) times what it moves there, n·x − d; what r
+//! grows raises it by the sum of these weights times ⟨n·x − d⟩/r. Of several r to begin with the one that comes nearest
+//! is taken, and the whole is scaled to the volume that is given.
 
 use super::error::{ShapeError, within};
 use super::rounding::{Definition, Rounding, Shape, lowered, usual_tolerance};
@@ -15,21 +17,26 @@ use crate::particle::plane::Plane;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::f64::consts::{PI, TAU};
 
-/// Of the size: the r that are tried. Below, overlaps would have to be tiny; beyond, nothing gets rounder.
-const SHARES: [f64; 6] = [0.02, 0.05, 0.1, 0.2, 0.3, 0.45];
+/// Of the size: the r to begin with; of more planes than turn only the middle one, for the time that they take.
+const SHARES: [f64; 3] = [0.05, 0.15, 0.45];
 
-/// Planes beyond which they do not turn: so many touch the hull all around.
+/// Planes beyond which they do not turn: so many have the directions of the hull all around.
 const MOST_TURNED: usize = 100;
 
 /// Most planes.
 const MOST_PLANES: usize = 1_000;
 
 /// Directions along which the height of the hull is to be reached.
-const SAMPLES: usize = 400;
+const SAMPLES: usize = 800;
 
-/// Steps of a fit; it ends with one that leaves more than this share of what is missing.
-const STEPS: usize = 25;
-const ENOUGH: f64 = 0.98;
+/// Powers of what is missing whose sum is to be the least, one after the other, and what is added to its square, as a
+/// share of the mean, so that no sample is without weight.
+const POWERS: [i32; 2] = [2, 6];
+const LEAST_WEIGHT: f64 = 0.01;
+
+/// Steps for each power; they end with one that leaves more than this share of what is missing.
+const STEPS: usize = 40;
+const ENOUGH: f64 = 0.995;
 
 /// What is added to the diagonal of the normal equations at first, as a share of its mean.
 const DAMPING: f64 = 1e-3;
@@ -114,12 +121,7 @@ pub(crate) fn of_hull(
         rays(SAMPLES).chain(outer.planes.iter().map(|plane| plane.normal)).map(|ray| (ray, support(ray).offset));
     let centre = outer.centroid;
     let samples: Vec<Height> = samples.map(|(ray, height)| (ray, height - ray.dot(&centre))).collect();
-    let shape = if outer.planes.len() > MOST_TURNED {
-        let shape = Shape::of_body(&SharpBody { origin: Vector3::zeros(), ..outer }, rounding, tolerance)?;
-        Shape { centroid: shape.centroid + hull.centroid + hull.origin, ..shape }
-    } else {
-        nearest(&outer, &samples, rounding, tolerance)?
-    };
+    let shape = nearest(&outer, &samples, rounding, tolerance)?;
     let factor = (volume / shape.mass.volume).cbrt();
     Ok(Shape { sharp_volume: volume, ..shape.resized(factor)? })
 }
@@ -133,14 +135,18 @@ fn nearest(
 ) -> Result<Shape, ShapeError> {
     let centre = outer.centroid;
     let size = outer.size()?;
-    let shares = if rounding.is_chosen() { &SHARES[..] } else { &[f64::NAN] };
+    let shares = match outer.planes.len() {
+        _ if !rounding.is_chosen() => &[f64::NAN],
+        ..=MOST_TURNED => &SHARES[..],
+        _ => &SHARES[1..2],
+    };
     let mut best: Option<Fit> = None;
     for share in shares {
         let rounding = if share.is_nan() { *rounding } else { rounding.with_radius(share * size) };
         let (r, k, shadow_radius) = rounding.lengths(size)?;
         let shadow_radius = shadow_radius.unwrap_or_else(|| outer.farthest(&centre));
         let planes = lowered(&outer.heights(&centre), r, k, shadow_radius);
-        let fit = Fit::of(Definition { planes, r, k, shadow_radius }, samples)?;
+        let fit = Fit::of(Definition { planes, r, k, shadow_radius }, samples, !share.is_nan());
         if best.as_ref().is_none_or(|best| fit.missing < best.missing) {
             best = Some(fit);
         }
@@ -155,76 +161,101 @@ fn nearest(
     Ok(Shape { centroid: shape.centroid + outer.origin, ..shape })
 }
 
-/// Planes, and the root of the mean square of what is missing to the heights.
+/// What a particle is made of, and what is missing to the heights, as a share of them, in the mean of the last power.
 struct Fit {
     definition: Definition,
     missing: f64,
 }
 
 impl Fit {
-    fn of(mut definition: Definition, samples: &[Height]) -> Result<Self, ShapeError> {
+    /// `is_free`: r changes, too.
+    fn of(mut definition: Definition, samples: &[Height], is_free: bool) -> Self {
         let mut points: Vec<Vector3<f64>> = samples.iter().map(|(ray, height)| *height * ray).collect();
-        let extent = samples.iter().map(|(_, height)| *height).fold(0.0, f64::max);
-        let mut looked = |definition: &Definition| {
-            let particle = definition.particle().ok()?;
+        let mut looked = |definition: &Definition, power: i32| {
+            let particle = definition.particle().ok().filter(|made| made.plane_count() == definition.planes.len())?;
             let found = reached(&particle, samples, &mut points)?;
-            let square: f64 = found.iter().map(|one| one.missing * one.missing).sum();
-            (particle.plane_count() == definition.planes.len())
-                .then_some((found, (square / samples.len() as f64).sqrt()))
+            let shares = found.iter().zip(samples).map(|(one, (_, height))| (one.missing / height).powi(power));
+            let mean = (shares.sum::<f64>() / samples.len() as f64).powf(1.0 / f64::from(power));
+            Some((found, mean))
         };
-        let Some((mut here, mut missing)) = looked(&definition) else {
-            return Ok(Self { missing: f64::INFINITY, definition });
-        };
-        let mut damping = DAMPING;
-        for _ in 0..STEPS {
-            let planes = stepped(&definition.planes, &here, damping, extent);
-            let tried = Definition { planes, ..definition };
-            match looked(&tried).filter(|(_, left)| *left < missing) {
-                Some((there, left)) => {
-                    let is_little = left > ENOUGH * missing;
-                    (definition, here, missing, damping) = (tried, there, left, 0.3 * damping);
-                    if is_little {
-                        break;
+        let mut missing = f64::INFINITY;
+        for power in POWERS {
+            let Some((mut here, mut left)) = looked(&definition, power) else { break };
+            let mut damping = DAMPING;
+            for _ in 0..STEPS {
+                let tried = Step { samples, reached: &here, power, mean: left, is_free }.taken(&definition, damping);
+                match looked(&tried, power).filter(|(_, less)| *less < left) {
+                    Some((there, less)) => {
+                        let is_little = less > ENOUGH * left;
+                        (definition, here, left, damping) = (tried, there, less, 0.3 * damping);
+                        if is_little {
+                            break;
+                        }
                     }
+                    None => damping *= 10.0,
                 }
-                None => damping *= 10.0,
             }
+            missing = left;
         }
-        Ok(Self { definition, missing })
+        Self { definition, missing }
     }
 }
 
-/// Planes that moved and turned by one step towards the least sum of squares.
-fn stepped(planes: &[Plane], reached: &[Reached], damping: f64, extent: f64) -> Vec<Plane> {
-    let across = |normal: &Vector3<f64>| {
-        let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
-        [first, normal.cross(&first)].map(|axis| extent * axis)
-    };
-    let axes: Vec<_> = planes.iter().map(|plane| across(&plane.normal)).collect();
-    let count = 3 * planes.len();
-    let (mut matrix, mut right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
-    for Reached { at, missing, weights } in reached {
-        // Outwards, and turned so that it recedes at x by x·e over the extent: about the foot of its own height.
-        let rates = weights.iter().flat_map(|&(i, weight)| {
-            let from_foot = (at - planes[i].offset * planes[i].normal) / (extent * extent);
-            let [first, second] = axes[i].map(|axis| -weight * axis.dot(&from_foot));
-            [(3 * i, weight), (3 * i + 1, first), (3 * i + 2, second)]
-        });
-        let rates: Vec<(usize, f64)> = rates.collect();
-        for &(i, rate) in &rates {
-            right[i] += rate * missing;
-            rates.iter().for_each(|&(j, other)| matrix[(i, j)] += rate * other);
+/// A step towards the least sum of a power of what is missing.
+struct Step<'a> {
+    samples: &'a [Height],
+    reached: &'a [Reached],
+    power: i32,
+    /// What is missing, as a share, in the mean of this power.
+    mean: f64,
+    is_free: bool,
+}
+
+impl Step<'_> {
+    /// Planes moved and, if they are not too many, turned; r grown or shrunk, if it is free.
+    fn taken(&self, from: &Definition, damping: f64) -> Definition {
+        let planes = &from.planes;
+        let extent = self.samples.iter().map(|(_, height)| *height).fold(0.0, f64::max);
+        let across = |normal: &Vector3<f64>| {
+            let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
+            [first, normal.cross(&first)].map(|axis| extent * axis)
+        };
+        let axes: Vec<_> = planes.iter().map(|plane| across(&plane.normal)).collect();
+        // Columns: r, then of each plane its offset and, where it turns, two angles.
+        let each = if planes.len() > MOST_TURNED { 1 } else { 3 };
+        let count = 1 + each * planes.len();
+        let (mut matrix, mut right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
+        for (Reached { at, missing, weights }, (_, height)) in self.reached.iter().zip(self.samples) {
+            let beyond = |i: usize| planes[i].normal.dot(at) - planes[i].offset;
+            let of_r = weights.iter().map(|&(i, weight)| weight * beyond(i)).sum::<f64>() / from.r;
+            // Outwards, and turned so that it recedes at x by x·e over the extent: about the foot of its own height.
+            let of_planes = weights.iter().flat_map(|&(i, weight)| {
+                let from_foot = (at - planes[i].offset * planes[i].normal) / (extent * extent);
+                let [first, second] = axes[i].map(|axis| -weight * axis.dot(&from_foot));
+                let own = 1 + each * i;
+                [(own, weight), (own + 1, first), (own + 2, second)].into_iter().take(each)
+            });
+            let rates: Vec<(usize, f64)> = self.is_free.then_some((0, of_r)).into_iter().chain(of_planes).collect();
+            let share = missing / (height * self.mean);
+            let weight = (share * share + LEAST_WEIGHT).powi(self.power / 2 - 1) / (height * height);
+            for &(i, rate) in &rates {
+                // Newton's step for a power p is 1/(p − 1) of that for squares with these weights.
+                right[i] += weight * rate * missing / f64::from(self.power - 1);
+                rates.iter().for_each(|&(j, other)| matrix[(i, j)] += weight * rate * other);
+            }
         }
+        let added = damping * matrix.trace() / count as f64;
+        (0..count).for_each(|i| matrix[(i, i)] += added);
+        let change = matrix.cholesky().map_or_else(|| DVector::zeros(count), |factor| factor.solve(&right));
+        let moved = |(i, (plane, axes)): (usize, (&Plane, &[Vector3<f64>; 2]))| {
+            let own = &change.as_slice()[1 + each * i..][..each];
+            let turned = axes.iter().zip(&own[1..]).map(|(axis, turn)| turn / (extent * extent) * axis);
+            let normal = (plane.normal + turned.sum::<Vector3<f64>>()).normalize();
+            Plane { normal, offset: plane.offset + own[0] }
+        };
+        let planes = planes.iter().zip(&axes).enumerate().map(moved).collect();
+        Definition { planes, r: (from.r + change[0]).clamp(0.5 * from.r, 2.0 * from.r), ..*from }
     }
-    let added = damping * matrix.trace() / count as f64;
-    (0..count).for_each(|i| matrix[(i, i)] += added);
-    let Some(factor) = matrix.cholesky() else { return planes.into() };
-    let change = factor.solve(&right);
-    let moved = |(i, (plane, [first, second])): (usize, (&Plane, &[Vector3<f64>; 2]))| {
-        let turn = (change[3 * i + 1] * first + change[3 * i + 2] * second) / (extent * extent);
-        Plane { normal: (plane.normal + turn).normalize(), offset: plane.offset + change[3 * i] }
-    };
-    planes.iter().zip(&axes).enumerate().map(moved).collect()
 }
 
 /// At most so many unit normals for the facets of a hull.

@@ -401,7 +401,7 @@ impl Findings {
         }
         println!("\n| target | at most | measured | met |\n|---|---|---|---|");
         for Target { name, target, measured, met, .. } in self.targets() {
-            println!("| {name} | {target} | {measured:.3} | {} |", if met { "yes" } else { "NO" });
+            println!("| {name} | {target} | {measured:.3} | {} |", if met { "met" } else { "MISSED" });
         }
         println!(
             "\n{} poses in {:.0} s, seed {}: {} failures {:?}",
