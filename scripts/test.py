@@ -97,8 +97,7 @@ STAGES = [
           ("tests/guide/links.py", str(GUIDE)), needs=("yade-build", )),
     suite("words", "Words, sentences and constants of the guide; versions; judges of make peers",
           ("tests/guide/words.py", ), ("tests/guide/sentences.py", ), ("tests/guide/constants.py", ),
-          ("scripts/versions.py", ), ("/usr/bin/python3", "benches/peers/test_answers.py"),
-          ("/usr/bin/python3", "benches/peers/test_roofline.py")),
+          ("scripts/versions.py", ), ("/usr/bin/python3", "benches/peers/test_answers.py")),
     # What takes long and says little to a user.
     # In a folder of its own: cargo gives the library of other features the same name.
     suite("features", "Rust tests without cone programs",
