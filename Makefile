@@ -273,7 +273,7 @@ header:
 
 lint:
 	$(call heading,Formatting)
-	@if cargo fmt --version >/dev/null 2>&1; then cargo fmt --check; else echo 'skipped: rustfmt is not installed (rustup component add rustfmt)'; fi
+	@if cargo fmt --version >/dev/null 2>&1; then cargo fmt --all --check; else echo 'skipped: rustfmt is not installed (rustup component add rustfmt)'; fi
 	$(call heading,Warnings)
 	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
 	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi

@@ -135,7 +135,7 @@ STAGES = [
 
 # Before a commit, by the build that is the fastest after a change; what is not installed is left out.
 CHECK = [
-    check("format", "Formatting of Rust", ("cargo", "fmt", "--check")),
+    check("format", "Formatting of Rust", ("cargo", "fmt", "--all", "--check")),
     suite("constants", "Words of the guide, constants of the theory, versions", ("tests/guide/words.py", ),
           ("tests/guide/constants.py", ), ("scripts/versions.py", )),
     check("library", "Library, quick build",
