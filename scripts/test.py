@@ -99,8 +99,7 @@ STAGES = [
           ("tests/guide/links.py", str(GUIDE)), needs=("yade-build", )),
     suite("words", "Words, sentences and constants of the guide; versions; judges of make peers",
           ("tests/guide/words.py", ), ("tests/guide/sentences.py", ), ("tests/guide/constants.py", ),
-          ("scripts/versions.py", ), ("/usr/bin/python3", "benches/peers/test_answers.py"),
-          ("/usr/bin/python3", "benches/peers/test_roofline.py")),
+          ("scripts/versions.py", ), ("/usr/bin/python3", "benches/peers/test_answers.py")),
     # What takes long and says little to a user.
     # In a folder of its own: cargo gives the library of other features the same name.
     suite("features", "Rust tests without cone programs",
@@ -137,7 +136,7 @@ STAGES = [
 
 # Before a commit, by the build that is the fastest after a change; what is not installed is left out.
 CHECK = [
-    check("format", "Formatting of Rust", ("cargo", "fmt", "--check")),
+    check("format", "Formatting of Rust", ("cargo", "fmt", "--all", "--check")),
     suite("constants", "Words of the guide, constants of the theory, versions", ("tests/guide/words.py", ),
           ("tests/guide/constants.py", ), ("scripts/versions.py", )),
     check("library", "Library, quick build",

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheel, the library for Python without YADE, into out/wheel, and tries it in a virtual environment that has
-# nothing else but numpy: its tests, the blocks of docs/wheel.md, and what Python adds to the time of C (summary.json).
-# With QUICK=1 it is built for this system alone, and no time is measured. maturin and ziglang, a linker for systems
+# nothing else but numpy: its tests, and the blocks of docs/wheel.md. With QUICK=1 it is built for this system alone,
+# and the demo is not run. maturin and ziglang, a linker for systems
 # with an older C library than this one, come from PyPI into a virtual environment of their own. Called by "make wheel"
 # and "make test".
 set -euo pipefail
@@ -65,8 +65,6 @@ else
     echo "no YADE with a built plugin here: the wheel was not tried beside it"
 fi
 if [ "${QUICK:-0}" != 1 ]; then
-    scripts/library.sh
     from_pypi "$TRIED" matplotlib
-    "$TRIED/bin/python" benches/wheel/run.py "$OUT" "$CARGO_TARGET_DIR/release/libpotential_particles.so"
     (cd "$OUT" && "$TRIED/bin/python" -m potential_particles demo)
 fi

@@ -1,12 +1,8 @@
 //! Factors without dilatancy: published walls, closed forms, and what may not change them.
 
-#[path = "../benches/equilibrium/scenes.rs"]
-#[allow(dead_code)]
-mod scenes;
-
+use kit::masonry::{block, ferris_tin_loi, level, pushed, random_slope, v, wall};
 use potential_particles::equilibrium::*;
 use potential_particles::nalgebra::{Matrix3, Rotation3, Vector3};
-use scenes::{block, ferris_tin_loi, level, pushed, random_slope, v, wall};
 
 fn factor(scene: &Scene) -> f64 {
     load_factor(scene, Flow::NonDilatant).expect("a factor").factor

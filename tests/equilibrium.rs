@@ -1,14 +1,10 @@
 //! Equilibrium of scenes against closed forms.
 
-#[path = "../benches/equilibrium/scenes.rs"]
-#[allow(dead_code)]
-mod scenes;
-
+use kit::masonry::{arch, block, level, pushed, random_slope, slope, v, wall, wedge};
 use potential_particles::Plane;
 use potential_particles::equilibrium::*;
 use potential_particles::nalgebra::Vector3;
 use potential_particles::rock::{Joint, JointSet, SliceSettings, slice};
-use scenes::{arch, block, level, pushed, random_slope, slope, v, wall, wedge};
 
 const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
 

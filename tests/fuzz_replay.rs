@@ -1,8 +1,6 @@
 //! The fuzz targets without a fuzzer: the seeds, and a fixed sequence of changes of them, for some seconds.
 
-#[path = "../fuzz/targets/mod.rs"]
-#[allow(dead_code)]
-mod targets;
+use kit::fuzz as targets;
 
 use std::path::Path;
 

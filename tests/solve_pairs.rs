@@ -1,14 +1,13 @@
 //! The example solve_pairs, run as a process.
 
-mod support;
-
+use kit::truth;
+use kit::truth::{number, vector};
 use nalgebra::Vector3;
 use potential_particles::{Settings, detect};
 use serde_json::{Value, json};
 use std::io::Write;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
-use support::{number, vector};
 
 const TRUTH: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/tests/data/pairs.jsonl");
 
@@ -71,7 +70,7 @@ fn answers_the_pairs_that_were_solved_to_40_digits() {
     let output = run(&[TRUTH], "");
     assert_eq!(errors(&output), "");
     assert!(output.status.success());
-    let (answers, pairs) = (answers(&output), support::pairs());
+    let (answers, pairs) = (answers(&output), truth::pairs());
     assert_eq!(answers.len(), pairs.len());
     for (index, (answer, pair)) in answers.iter().zip(&pairs).enumerate() {
         let (midway, closest, truth) = (&answer["midway"], &answer["closest"], &pair.truth);
@@ -235,8 +234,8 @@ fn no_digit_of_a_distance_is_lost() {
     let found = run(&["--gap-tolerance", "1e-14", "-"], &format!("{pair}\n{rounded}"));
     let [of_pair, of_rounded] = [0, 1].map(|i| answers(&found)[i]["midway"]["s"].as_f64().expect("s"));
 
-    let read = |name: &str| serde_json::from_value::<support::Shape>(pair[name].clone()).expect("a shape").particle();
-    let place = |name: &str| serde_json::from_value::<support::Place>(pair[name].clone()).expect("a place").pose();
+    let read = |name: &str| serde_json::from_value::<truth::Shape>(pair[name].clone()).expect("a shape").particle();
+    let place = |name: &str| serde_json::from_value::<truth::Place>(pair[name].clone()).expect("a place").pose();
     let settings = Settings::default().with_gap_tolerance(1e-14).with_solve_separated(true);
     let direct = detect(&read("A"), &place("a"), &read("B"), &place("b"), &settings, None).expect("an answer");
     assert!((of_pair - direct.s).abs() <= 1e-15 * direct.s, "{of_pair} and {}", direct.s);

@@ -1,8 +1,7 @@
 //! Particles shared by threads: each thread gets, bit for bit, the answers that one thread alone gets, from states
 //! of its own.
 
-mod support;
-
+use kit::truth;
 use potential_particles::{Contact, Formulation, PairState, Particle, Pose, Settings, detect};
 use std::sync::{Arc, Barrier};
 use std::thread;
@@ -42,7 +41,7 @@ fn answers(pairs: &[Pair], first: usize) -> Vec<Vec<u8>> {
 
 #[test]
 fn many_threads_answer_as_one() {
-    let pairs: Vec<Pair> = support::pairs()
+    let pairs: Vec<Pair> = truth::pairs()
         .iter()
         .map(|pair| Pair {
             a: Arc::new(pair.shape_a.particle()),

@@ -1,10 +1,9 @@
 //! Every back end and formulation against solutions known to 40 digits.
 
-mod support;
-
+use kit::truth;
+use kit::truth::{distance, minus, number, pairs, vector};
 use potential_particles::{BackEnd, Contact, Formulation, Kind, Role, Settings, closest_point, detect};
 use std::collections::BTreeMap;
-use support::{distance, minus, number, pairs, vector};
 
 /// Worst figures of one family.
 #[derive(Default)]
@@ -46,7 +45,7 @@ fn sweep(back_end: BackEnd, formulation: Formulation) -> BTreeMap<String, Worst>
 }
 
 impl Worst {
-    fn record(&mut self, contact: &Contact, pair: &support::Pair, size: f64, line: usize) {
+    fn record(&mut self, contact: &Contact, pair: &truth::Pair, size: f64, line: usize) {
         let truth = &pair.truth;
         let midway = contact.formulation == Formulation::Midway;
         let s = if midway { number(&truth.s4) } else { number(truth.s_a.as_ref().expect("not slack")) };

@@ -1,19 +1,15 @@
 //! Equilibrium: closed forms, and how time and memory grow with the number of blocks. Writes
 //! out/equilibrium/summary.json, and out/equilibrium/wall.json for the picture; `-- quick` takes the small scenes only.
 
-mod scenes;
-#[path = "../target/mod.rs"]
-mod target;
-
+use kit::masonry::{arch, block, ferris_tin_loi, pushed, random_slope, v, wall, wedge};
+use kit::target::{self, at_most, own_time};
 use potential_particles::Plane;
 use potential_particles::equilibrium::{
     EquilibriumError, Flow, JointStrength, Load, Scene, load_factor, stands, strength_factor,
 };
 use potential_particles::nalgebra::Vector3;
 use potential_particles::rock::{JointSet, SliceSettings, slice};
-use scenes::{arch, block, ferris_tin_loi, pushed, random_slope, v, wall, wedge};
 use serde_json::{Value, json};
-use target::{at_most, own_time};
 
 const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
 /// Bricks of a course and courses of the walls; target of the default load factor, s of the processor, and of the

@@ -1,6 +1,6 @@
 //! Contact patches against closed forms, and tiles against a slab.
 
-use crate::bodies::{Pair, contact, cuboid};
+use kit::patch::bodies::{Pair, contact, cuboid};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchScratch, PatchSettings, Plane, Pose, Settings, Triangle, Wall, contact_with_plane,

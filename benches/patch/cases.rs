@@ -1,6 +1,6 @@
 //! Contacts of each kind: face on face, edge on face, crossed edges, corner on face.
 
-use crate::bodies::{Pair, cuboid};
+use kit::patch::bodies::{Pair, cuboid};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use std::f64::consts::FRAC_PI_4;
 

@@ -1,7 +1,7 @@
 //! Mean time of a patch by family of random contacts, and how many of them need rays.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid, facing, grain};
-use crate::boundaries::{Boundary, resting, triangle_over};
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid, facing, grain};
+use kit::patch::boundaries::{Boundary, resting, triangle_over};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, Triangle, Wall, patch_of_contact,

@@ -4,7 +4,7 @@
 //! three steps, of which the best counts: a long one meets jumps of the third derivative, where a plane goes on, and a
 //! short one divides the tolerance of the energy by little.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, difference, mesh_of_box};
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, difference, mesh_of_box};
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,

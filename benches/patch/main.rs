@@ -3,23 +3,14 @@
 //! the energy, `-- seed=7` the same random families again.
 
 mod accuracy;
-#[path = "../../tests/patch/bodies.rs"]
-mod bodies;
-#[allow(dead_code)] // Nothing is carried on here.
-#[path = "../../tests/patch/boundaries.rs"]
-mod boundaries;
 mod cases;
 mod families;
 mod gradients;
 mod planar;
-#[path = "../scene/mod.rs"]
-mod scene;
 mod speed;
-#[path = "../target/mod.rs"]
-mod target;
 
+use kit::target::{at_most, write_summary};
 use serde_json::{Value, json};
-use target::{at_most, write_summary};
 
 /// The most units of a kind at a tolerance.
 fn units(kinds: &[Value], tolerance: f64, is_meant: impl Fn(&str) -> bool) -> f64 {

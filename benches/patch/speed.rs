@@ -1,9 +1,10 @@
 //! Time and error of contact patches by kind, in units of one evaluation of both bodies.
 
-use crate::bodies::Pair;
 use crate::cases::kinds;
-use crate::scene::evaluation::Plain;
-use crate::scene::{polyhedra, random};
+use kit::patch::bodies::Pair;
+use kit::random;
+use kit::scene::evaluation::Plain;
+use kit::scene::polyhedra;
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{Patch, PatchFlags, PatchScratch, PatchSettings, PatchState, patch_of_contact};
 use serde_json::{Value, json};

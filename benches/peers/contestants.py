@@ -13,7 +13,7 @@ from dataclasses import dataclass
 CONTACT = "contact"  # point, normal and overlap of bodies that touch; of others: that they do not
 DISTANCE = "distance"  # distance and closest points of bodies apart
 
-OURS, PARRY, COAL, BULLET, MUJOCO, DRAKE, YADE = "ours", "parry", "coal", "bullet", "mujoco", "drake", "yade"
+OURS, PARRY, COAL, BULLET, YADE = "ours", "parry", "coal", "bullet", "yade"
 PATIENCE = 120  # seconds for an answer
 
 
@@ -27,7 +27,7 @@ class Contestant:
     settings: str
     gives: str
     places: tuple = ("touching", "lying", "near", "far")
-    edges: tuple = ("sharp", "rounded", "potential", "chunky")
+    edges: tuple = ("sharp", "rounded", "potential")
     most_planes: int = 1000
     warmths: tuple = ("cold", "warm")
     # Whether a peer on the same work as our contact call: one with point, normal and overlap, in the same time scale of
@@ -49,10 +49,7 @@ GJK = "GJK; EPA where the cores meet"
 COALS = "tolerances of GJK and EPA 1e-6, 128 and 64 iterations (defaults), distance_upper_bound 0; cached guess when warm"
 PARRYS = "tolerance 4.7e-8 relative (fixed), 100 iterations; contacts of the cores up to 2r apart"
 BULLETS = "relative 1e-12 of the squared distance (fixed); separating axis kept when warm"
-MUJOCOS = "ccd_tolerance 1e-6, 50 iterations (defaults); no memory, no rounded meshes"
-DRAKES = "its tolerances (fixed); called from Python, once for all pairs, boxes of the pairs included"
 CARRIED = "gap_tolerance 1e-12, point to 1e-9 of the size (the plugin's default)"
-LEVEL_SET = "deepest of 500 nodes in a field on a grid of 25 cells across"
 MIDWAY, DEFAULT = "midway problem", "gap_tolerance 1e-12 (default)"
 TOUCH, APART, WARM = ("touching", "lying"), ("near", "far"), ("warm",)
 
@@ -77,19 +74,9 @@ CONTESTANTS = (
     _one(COAL, "distance", "Coal, distance", "GJK to the end", COALS, "distance, closest points", DISTANCE,
          places=("near", )),
     _one(BULLET, "contact", "Bullet, double precision", GJK, BULLETS, BOTH, rival=True),
-    _one(MUJOCO, "contact", "MuJoCo", "GJK; EPA; its mj_geomDistance", MUJOCOS, POINT + ", surface points",
-         edges=("sharp", ), rival=True),
-    _one(MUJOCO, "distance", "MuJoCo, distance", "GJK to the end", MUJOCOS, "distance, closest points", DISTANCE,
-         places=("near", ), edges=("sharp", )),
-    _one(DRAKE, "contact", "Drake", "its query of all pairs of a scene, by FCL", DRAKES, BOTH, edges=("sharp", ),
-         most_planes=100, rival=True),
     _one(YADE, "potential", "YADE's PotentialParticle", "least f_A + f_B with f_A = f_B, by Newton",
          "accuracyTol 1e-7 (default), no contact area", POINT + "; area by rays", places=TOUCH, edges=("potential", ),
          most_planes=12, warmths=WARM, rival=True),
-    _one(YADE, "polyhedra", "YADE's Polyhedra", "volume of intersection, by CGAL", "exact but for rounding",
-         "point, normal, volume, area", places=TOUCH, edges=("sharp", ), most_planes=100, warmths=WARM, rival=True),
-    _one(YADE, "levelset", "YADE's LevelSet", LEVEL_SET, "no tolerance: nodes and grid", POINT, places=TOUCH,
-         edges=("sharp", "rounded"), most_planes=20, warmths=WARM),
 )
 
 

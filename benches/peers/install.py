@@ -7,13 +7,13 @@ import subprocess
 import sys
 from pathlib import Path
 
-from contestants import BULLET, COAL, DRAKE, MUJOCO, OURS, PARRY, YADE
+from contestants import BULLET, COAL, OURS, PARRY, YADE
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parents[1]
 OUT = TOP / "out" / "peers"
-COAL_VERSION, MUJOCO_VERSION, DRAKE_VERSION = "3.0.3", "4.0.0", "1.51.1"
-DEBIAN = ("libbullet-dev", "lammps", "pkgconf", "python3-venv", "python3-scipy", "python3-matplotlib")
+COAL_VERSION = "3.0.3"
+DEBIAN = ("libbullet-dev", "pkgconf", "python3-venv", "python3-scipy", "python3-matplotlib")
 YADE_PROGRAM = Path("/usr/bin/yade")
 WARNINGS = ["-O3", "-DNDEBUG", "-std=c++17", "-Wall", "-Wextra"]
 
@@ -42,15 +42,12 @@ def everybody():
     found.add(PARRY, lambda: rust("parry"))
     found.add(COAL, _coal)
     found.add(BULLET, _bullet)
-    found.add(MUJOCO, _mujoco)
-    found.add(DRAKE, _drake)
     found.add(YADE, _yade)
-    found.add("lammps", _lammps)
     return found
 
 
 def program(name):
-    """A command of the package `peers`: `placed`, which places potential particles, or `patches`."""
+    """A command of the package `peers`: `placed`, which places potential particles."""
     return _target() / "release" / name
 
 
@@ -102,18 +99,6 @@ def _wheel(package, version):
     return next(environment.glob("lib/python*/site-packages"))
 
 
-def _mujoco():
-    folder = _wheel("mujoco", MUJOCO_VERSION) / "mujoco"
-    library = next(folder.glob("libmujoco.so.*"))
-    _compile("mujoco", [f"-isystem{folder}/include"], [library, f"-Wl,-rpath,{folder}"])
-    return [OUT / "bin" / "mujoco"], f"MuJoCo {MUJOCO_VERSION}, the wheel's library"
-
-
-def _drake():
-    _wheel("drake", DRAKE_VERSION)
-    return [OUT / "venv" / "bin" / "python", HERE / "drake_pairs.py"], f"Drake {DRAKE_VERSION}, the wheel"
-
-
 def _coal():
     prefix = _wheel("coal", COAL_VERSION) / "cmeel.prefix"
     links = [f"-L{prefix}/lib", "-lcoal", f"-Wl,-rpath,{prefix}/lib", f"-Wl,-rpath-link,{prefix}/lib"]
@@ -132,13 +117,6 @@ def _yade():
     if not YADE_PROGRAM.exists():
         raise LookupError(f"{YADE_PROGRAM} is not installed")
     return [YADE_PROGRAM, "-x", "-n", "-j1", HERE / "yade_pairs.py"], f"YADE {_package('yade')}"
-
-
-def _lammps():
-    styles = _output(["lmp", "-h"])
-    if "body/rounded/polyhedron" not in styles:
-        raise LookupError("this lmp was built without the BODY package")
-    return ["lmp"], f"LAMMPS {_package('lammps')}"
 
 
 def _compile(name, flags, links):

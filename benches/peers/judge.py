@@ -2,10 +2,8 @@
 """Errors of answers, each against the exact answer of the contestant's own problem."""
 
 import numpy as np
-from scipy.optimize import linprog
-from scipy.spatial import ConvexHull, HalfspaceIntersection
 
-from pairs import LYING, NEAR_BY, TOUCHING, cores, exact
+from pairs import LYING, NEAR_BY, TOUCHING, exact
 
 SETTLED = "@1e-14"  # our own answers in extended precision, whose bound is proved
 DOUBTFUL = 1e-7  # of the size: an overlap below it is no contact that must be found
@@ -31,20 +29,18 @@ class Judge:
                 wrong += abs(truth) > DOUBTFUL
                 continue
             if answer and contestant.way != "intersection":
-                scale = truth if contestant.way == "polyhedra" else 1.0
-                errors.append(abs(answer[0] - truth) / scale)
+                errors.append(abs(answer[0] - truth))
         return {
             "pairs": len(answers),
             "failed": failed,
             "wrong": int(wrong),
             "median_error": float(np.median(errors)) if errors else None,
             "worst_error": float(max(errors)) if errors else None,
-            "error_of": "volume, relative" if contestant.way == "polyhedra" else
-                        "distance" if contestant.work == "distance" else "overlap",
+            "error_of": "distance" if contestant.work == "distance" else "overlap",
         }
 
     def truth(self, contestant, pair):
-        """Overlap, minus the distance, or volume; 0 or less: apart."""
+        """Overlap, or minus the distance; 0 or less: apart."""
         if contestant.ours or contestant.way == "potential":
             if self.group.place not in (TOUCHING, LYING):
                 return -1.0
@@ -53,27 +49,9 @@ class Judge:
                 self.kept[formulation] = self.settled(formulation)
             answer = self.kept[formulation][pair]
             return answer[0] if answer else -1.0
-        kind = "volume" if contestant.way == "polyhedra" else "depth"
-        key = (kind, pair)
-        if key not in self.kept:
-            self.kept[key] = volume(self.group, pair) if kind == "volume" else self.depth(pair)
-        return self.kept[key]
+        if pair not in self.kept:
+            self.kept[pair] = self.depth(pair)
+        return self.kept[pair]
 
     def depth(self, pair):
         return exact(self.group, pair) if self.group.place in (TOUCHING, LYING, NEAR_BY) else -1.0
-
-
-def volume(group, pair):
-    """Of the intersection of the cores at the last pose."""
-    a, b = cores(group, pair)
-    normals, offsets = np.vstack([a.normals, b.normals]), np.concatenate([a.offsets, b.offsets])
-    # The centre of the largest ball in it, and lengths in units of that ball: qhull's own limits are absolute.
-    rows = np.column_stack([normals, np.ones(len(normals))])
-    found = linprog([0, 0, 0, -1], A_ub=rows, b_ub=offsets, bounds=[(None, None)] * 3 + [(0, None)], method="highs")
-    centre, radius = found.x[:3], found.x[3]
-    if not found.success or radius < 1e-12:
-        return 0.0
-    heights = (offsets - normals @ centre) / radius
-    near = heights < 1e4
-    corners = HalfspaceIntersection(np.column_stack([normals[near], -heights[near]]), np.zeros(3)).intersections
-    return float(ConvexHull(corners).volume * radius**3)

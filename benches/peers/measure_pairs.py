@@ -9,13 +9,12 @@ import subprocess
 
 import install
 import pairs
-from contestants import BULLET, COAL, CONTESTANTS, DRAKE, MUJOCO, OURS, PARRY, YADE, Server
+from contestants import BULLET, COAL, CONTESTANTS, OURS, PARRY, YADE, Server
 from judge import SETTLED, Judge
-from pairs import CHUNKY, FAR, LYING, NEAR_BY, OVERLAP, POTENTIAL, ROUNDED, SHARP, TOUCHING
+from pairs import FAR, LYING, NEAR_BY, OVERLAP, POTENTIAL, ROUNDED, SHARP, TOUCHING
 
 SEED = 2012
 PLANES = (4, 5, 12, 20, 100, 1000)
-CHUNKY_PLANES = (8, 16, 32, 64, 128)
 CURVE_GROUPS = ("5-potential-touching", "5-sharp-touching", "100-potential-touching")
 CURVES = {
     (OURS, "midway"): ("1e-2", "1e-4", "1e-6", "1e-8", "1e-10", "1e-12", "1e-14"),
@@ -28,7 +27,7 @@ class Effort:
         # Many batches, so short that some of them have a core to themselves.
         self.rounds, self.seconds = (2, 2e-3) if quick else (15, 2e-3)
         self.pairs, self.many = (10, 4) if quick else (100, 30)
-        self.planes, self.chunky = ((5, 100), (8, 128)) if quick else (PLANES, CHUNKY_PLANES)
+        self.planes = (5, 100) if quick else PLANES
         self.slow_rounds = 1 if quick else 2
 
 
@@ -37,7 +36,6 @@ def named_groups(effort):
     wanted = [(n, edges, TOUCHING) for n in effort.planes for edges in (SHARP, ROUNDED, POTENTIAL)]
     wanted += [(n, edges, LYING) for n in effort.planes if n in (5, 12) for edges in (SHARP, ROUNDED, POTENTIAL)]
     wanted += [(n, edges, NEAR_BY) for n in effort.planes if n in (5, 100, 1000) for edges in (SHARP, POTENTIAL)]
-    wanted += [(n, CHUNKY, TOUCHING) for n in effort.chunky]
     return wanted + [(n, SHARP, FAR) for n in effort.planes if n in (5, 1000)]
 
 
@@ -61,13 +59,12 @@ class Measurement:
         pairs.write(moved, potential)
         self.servers = {
             name: Server([*found.commands[name], potential if name == OURS else swept])
-            for name in (OURS, PARRY, COAL, BULLET, MUJOCO, DRAKE)
+            for name in (OURS, PARRY, COAL, BULLET)
             if name in found.commands
         }
         if YADE in found.commands:
-            for way, path in (("potential", potential), ("polyhedra", swept), ("levelset", swept)):
-                environment = {"PAIRS": str(path), "HERE": str(install.HERE), "OMP_NUM_THREADS": "1"}
-                self.servers[YADE, way] = Server(found.commands[YADE], environment)
+            environment = {"PAIRS": str(potential), "HERE": str(install.HERE), "OMP_NUM_THREADS": "1"}
+            self.servers[YADE] = Server(found.commands[YADE], environment)
 
     def rows(self):
         """One dictionary for each contestant, group and warmth."""
@@ -82,10 +79,7 @@ class Measurement:
         return rows
 
     def present(self):
-        return [one for one in CONTESTANTS if self.server(one.program, one.way) is not None]
-
-    def server(self, program, way):
-        return self.servers.get(program) or self.servers.get((program, way))
+        return [one for one in CONTESTANTS if one.program in self.servers]
 
     def race(self, group, entries):
         """Seconds a call, the fastest batch of each; None of those that gave no answer."""
@@ -96,7 +90,7 @@ class Measurement:
                 if best[index] is None or slow and turn >= self.effort.slow_rounds:
                     continue
                 try:
-                    found = self.server(one.program, one.way).ask("time", group.name, one.way, warmth,
+                    found = self.servers[one.program].ask("time", group.name, one.way, warmth,
                                                                   self.effort.seconds)
                     best[index] = min(best[index], found)
                 except (RuntimeError, OSError) as error:
@@ -115,7 +109,7 @@ class Measurement:
         return row
 
     def answers(self, program, group, way, warmth="cold"):
-        return self.server(program, way.split("@")[0]).ask("answers", group.name, way, warmth)
+        return self.servers[program].ask("answers", group.name, way, warmth)
 
     def curves(self):
         """Time and error over a tolerance, of those who have one."""
@@ -130,7 +124,7 @@ class Measurement:
                 for tolerance in tolerances if one else ():
                     for warmth in ("cold", "warm"):
                         asked = f"{way}@{tolerance}"
-                        server = self.server(program, way)
+                        server = self.servers[program]
                         times = [
                             server.ask("time", name, asked, warmth, self.effort.seconds)
                             for _ in range(self.effort.rounds // 3 + 1)

@@ -12,27 +12,24 @@ import numpy as np
 from scipy.optimize import linprog
 from scipy.spatial.transform import Rotation
 
-from polyhedron import Polyhedron, chunky, distance, named, penetration
+from polyhedron import Polyhedron, distance, named, penetration
 
 OVERLAP = 5e-4  # of the size, as in a calm pile
 NEAR = 0.02  # distance of pairs that boxes do not separate
 STEP = 5e-5  # move and turn from one pose to the next
 POSES = 6
 TILT = 1e-4  # radians, of faces that lie on each other
-SHARP, ROUNDED, POTENTIAL, CHUNKY = "sharp", "rounded", "potential", "chunky"
+SHARP, ROUNDED, POTENTIAL = "sharp", "rounded", "potential"
 # How the same body is written down: r of our potential particle, its k, and the radius of the ball that is swept by the
 # others.
 ROUNDING = {SHARP: (1e-3, 0.0, 0.0), ROUNDED: (0.05, 0.0, 0.05), POTENTIAL: (0.05, 0.02, 0.05)}
-# Smoothed by log(sum of exp(beta x))/beta, beta = 20, the edge of a box lies ln(2)/20 = 3.5 % deeper, 0.02 of the size;
-# so it does with r = 0.07.
-ROUNDING[CHUNKY] = (0.07, 0.02, 0.07)
 TOUCHING, LYING, NEAR_BY, FAR = "touching", "lying", "near", "far"
 
 
 @dataclass
 class Group:
     planes: int
-    edges: str  # SHARP, ROUNDED, POTENTIAL, CHUNKY
+    edges: str  # SHARP, ROUNDED, POTENTIAL
     place: str
     core: Polyhedron  # what the others sweep with a ball of `swept`
     normals: np.ndarray
@@ -51,7 +48,7 @@ class Group:
 
 def group(planes, edges, place, pairs, seed):
     r, k, swept = ROUNDING[edges]
-    finished = chunky(planes) if edges == CHUNKY else named(planes)
+    finished = named(planes)
     core = finished if swept == 0 else Polyhedron(finished.normals, finished.offsets - swept)
     shadow = 1.1 * finished.radius()
     made = Group(planes, edges, place, core, finished.normals, finished.offsets - r, r, k, shadow, swept)

@@ -88,31 +88,6 @@ def named(planes):
     return pyramid() if planes == 5 else regular(planes) if planes in (4, 6, 12, 20) else ball(planes)
 
 
-def chunky(planes):
-    """The box 1.6 x 1.2 x 1.0 with planes - 6 chips, as in iDCOL's benchmarks: their normals from Halton's sequence,
-    each at 85 % of how far the box reaches along it.
-    """
-    half = np.array([0.8, 0.6, 0.5])
-    count = planes - 6
-    z, turn = 2.0 * _halton(count, 2) - 1.0, 2.0 * np.pi * _halton(count, 3)
-    across = np.sqrt(1.0 - z * z)
-    chips = np.column_stack([across * np.cos(turn), across * np.sin(turn), z])
-    box = np.vstack([np.eye(3), -np.eye(3)])
-    return Polyhedron(np.vstack([box, chips]), np.concatenate([half, half, 0.85 * (np.abs(chips) @ half)]))
-
-
-def _halton(count, base):
-    """The first numbers of Halton's sequence to a base, without the 0."""
-    numbers = np.zeros(count)
-    for place in range(count):
-        index, share = place + 1, 1.0
-        while index:
-            share /= base
-            numbers[place] += share * (index % base)
-            index //= base
-    return numbers
-
-
 def penetration(a, b, rows=200):
     """(depth, direction from a to b): the least translation that parts two bodies that meet.
 

@@ -9,26 +9,21 @@ import matplotlib.pyplot as plt
 from contestants import CONTACT, CONTESTANTS, OURS
 from measure_pairs import CURVE_GROUPS
 from summary import markdown, target
-from pairs import CHUNKY, FAR, LYING, NEAR_BY, POTENTIAL, ROUNDED, SHARP, TOUCHING
+from pairs import FAR, LYING, NEAR_BY, POTENTIAL, ROUNDED, SHARP, TOUCHING
 
 # The call whose time counts against the peers': alone, and as in a step of a simulation.
 COUNTED = {"cold": "midway", "warm": "carried"}
-EDGES = {SHARP: "sharp", ROUNDED: "rounded, k = 0", POTENTIAL: "rounded, k = 0.02", CHUNKY: "chunky, k = 0.02"}
+EDGES = {SHARP: "sharp", ROUNDED: "rounded, k = 0", POTENTIAL: "rounded, k = 0.02"}
 PLACES = {TOUCHING: "touching", LYING: "face on face", NEAR_BY: "near", FAR: "far"}
 COLUMNS = (
     ("parry", "contact"),
     ("coal", "contact"),
     ("coal", "contact-nesterov"),
     ("bullet", "contact"),
-    ("mujoco", "contact"),
-    ("drake", "contact"),
     ("ours", "cone_program"),
     ("yade", "potential"),
-    ("yade", "polyhedra"),
-    ("yade", "levelset"),
 )
-HEADS = ("parry", "Coal", "Coal, Nesterov", "Bullet", "MuJoCo", "Drake", "clarabel", "PotentialParticle", "Polyhedra",
-         "LevelSet")
+HEADS = ("parry", "Coal", "Coal, Nesterov", "Bullet", "clarabel", "PotentialParticle")
 LEAST_ERROR, MOST_ERROR = 1e-17, 1.0  # where an error of nothing is drawn; where the picture ends
 
 

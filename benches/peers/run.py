@@ -1,10 +1,10 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Side by side with the codes a user would pick instead: pairs, patches, and piles.
+"""Side by side with the codes a user would pick instead, on the same pairs.
 
 The contestants are installed first; then no network.
 
-    benches/peers/run.py [--quick] [--only pairs|patches|piles]
+    benches/peers/run.py [--quick]
 
 Results go to out/peers: summary.json with targets, table.md, peers.png. Leave the machine alone meanwhile.
 """
@@ -18,8 +18,6 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies"))
 
 import install
 import measure_pairs
-import measure_piles
-import patches
 import report
 from summary import made, print_table, print_targets, write_summary
 
@@ -27,8 +25,6 @@ from summary import made, print_table, print_targets, write_summary
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--quick", action="store_true", help="a little of everything, in a minute")
-    arguments.add_argument("--only", choices=("pairs", "patches", "piles"),
-                           help="one of the parts; the others are left out of the results")
     options = arguments.parse_args()
     started = time.perf_counter()
     print("Contestants", flush=True)
@@ -38,28 +34,13 @@ def main():
         "missing": found.missing, "load_before": measure_pairs.load(), "load_after": None, "targets": []
     }
     line = f"{summary['machine']}, {summary['date']}"
-    parts = [f"*{line}; {summary['command']}*"]
-    if options.only in (None, "pairs"):
-        parts += pairs_part(found, options.quick, line, summary)
-        # What was measured stays if the rest is interrupted.
-        write_results(parts, summary)
-    if options.only in (None, "patches"):
-        parts += table_part("patches", "A contact patch", patches, found, options.quick, summary)
-        write_results(parts, summary)
-    if options.only in (None, "piles"):
-        parts += table_part("piles", "A pile", measure_piles, found, options.quick, summary)
-    # Figures that others publish, on their machines: of the paper, and of codes that no package registry has.
-    parts += ["## As others publish it", (install.HERE / "published.md").read_text().strip()]
+    parts = [f"*{line}; {summary['command']}*", *pairs_part(found, options.quick, line, summary)]
     summary["load_after"] = measure_pairs.load()
-    write_results(parts, summary)
+    (install.OUT / "table.md").write_text("\n\n".join(parts) + "\n")
+    write_summary(install.OUT / "summary.json", summary)
     print_targets(summary["targets"])
     print_table([("time", f"{time.perf_counter() - started:.0f} s"),
                  ("results", f"{install.OUT}: table.md, peers.png, summary.json")])
-
-
-def write_results(parts, summary):
-    (install.OUT / "table.md").write_text("\n\n".join(parts) + "\n")
-    write_summary(install.OUT / "summary.json", summary)
 
 
 def pairs_part(found, quick, line, summary):
@@ -77,15 +58,6 @@ def pairs_part(found, quick, line, summary):
         "## Distance of bodies that are near, from nothing / from memory", report.distance_table(rows),
         "## Who computes what, and how exactly", report.contestant_table(rows, found),
     ]
-
-
-def table_part(name, heading, of, found, quick, summary):
-    """`of`: a module with the rows, the targets and the table of this part."""
-    print(name.capitalize(), flush=True)
-    rows = of.rows(found, quick)
-    summary[name] = rows
-    summary["targets"] += of.targets(rows)
-    return [f"## {heading}", of.table(rows)]
 
 
 if __name__ == "__main__":

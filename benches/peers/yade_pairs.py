@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""YADE's own functors on the pairs of pairs.py, by the protocol of rust/src/server.rs. Run it inside YADE:
+"""YADE's own functor on the pairs of pairs.py, by the protocol of rust/src/server.rs. Run it inside YADE:
 
     PAIRS=pairs.txt HERE=benches/peers yade -x -n -j1 benches/peers/yade_pairs.py
 
-Ways: potential (Ig2_PP_PP_ScGeom, without contact area), polyhedra (the volume of intersection stands for the overlap),
-levelset. All pairs of a group are one scene, its interactions made by hand; the time is that of YADE's InteractionLoop
-by YADE's clock, so that
-the law and the loop are in it: less than a microsecond a pair. A call always starts from what the functor itself
-    remembers.
+Ig2_PP_PP_ScGeom, without contact area. All pairs of a group are one scene, its interactions made by hand; the time is
+that of YADE's InteractionLoop by YADE's clock, with the law and the loop in it: less than a microsecond a pair. A call
+always starts from what the functor itself remembers.
 """
 
 import json
@@ -19,31 +17,25 @@ sys.path.insert(0, os.environ["HERE"])
 import numpy as np
 import yade
 import yade.log
-from yade import Body, Omega, Quaternion, Vector3, polyhedra_utils, utils
+from yade import Body, Omega, Quaternion, Vector3, utils
 
 import pair_file
-import yade_level_set
 
 O = Omega()
-MOST_PAIRS = {"potential": 20, "polyhedra": 20, "levelset": 10}
-
-
+MOST_PAIRS = 20
 APART = Vector3(16, 0, 0)  # from pair to pair, so that none meets another
 
 
 class Scene:
-    """The pairs of one group, with one functor."""
+    """The pairs of one group."""
 
-    def __init__(self, group, way):
+    def __init__(self, group):
         O.reset()
-        self.way = way
-        self.pairs = group.pairs[: MOST_PAIRS[way]]
-        engines = {"potential": potential_engines, "polyhedra": polyhedra_engines, "levelset": level_set_engines}[way]
-        make = {"potential": potential, "polyhedra": polyhedron, "levelset": level_set}[way]
-        collider, self.loop = engines()
+        self.pairs = group.pairs[:MOST_PAIRS]
+        collider, self.loop = potential_engines()
         self.bodies = []
         for number, (first, seconds) in enumerate(self.pairs):
-            both = [make(group), make(group)]
+            both = [potential(group), potential(group)]
             for body, place in zip(both, (first, seconds[0])):
                 body.state.blockedDOFs = "xyzXYZ"
                 self.place(body, place, number)
@@ -58,10 +50,8 @@ class Scene:
         self.contacts = [utils.createInteraction(one.id, other.id) for one, other in self.bodies]
 
     def place(self, body, place, number):
-        turn = Quaternion(*place[3:]).normalized()
-        own, offset = OWN.get(id(body), (Quaternion.Identity, Vector3.Zero))
-        body.state.pos = Vector3(*place[:3]) + turn * offset + number * APART
-        body.state.ori = turn * own
+        body.state.pos = Vector3(*place[:3]) + number * APART
+        body.state.ori = Quaternion(*place[3:]).normalized()
 
     def step(self, time):
         """Seconds of the loop with every B at its pose of that number."""
@@ -91,16 +81,10 @@ class Scene:
             return []
         geom = contact.geom
         sense = 1 if contact.id1 < contact.id2 else -1
-        measure = geom.penetrationVolume if self.way == "polyhedra" else geom.penetrationDepth
-        found = [measure, *(geom.contactPoint - number * APART), *(sense * geom.normal)]
+        found = [geom.penetrationDepth, *(geom.contactPoint - number * APART), *(sense * geom.normal)]
         if not np.isfinite(found).all():
             return None
-        return found if measure > 0 else []
-
-
-# Turn and centroid of each of YADE's polyhedra, which keep their vertices about the centroid, along the principal axes;
-# and the bodies themselves, so that no identity is given twice.
-OWN, KEPT = {}, []
+        return found if geom.penetrationDepth > 0 else []
 
 
 def potential(group):
@@ -120,53 +104,18 @@ def potential_engines():
     )
 
 
-def polyhedron(group):
-    body = polyhedra_utils.polyhedra(POLYHEDRAL, v=[Vector3(*corner) for corner in group.corners])
-    OWN[id(body)] = (body.state.ori, body.state.pos)
-    KEPT.append(body)
-    return body
-
-
-def polyhedra_engines():
-    return yade.InsertionSortCollider([yade.Bo1_Polyhedra_Aabb()], verletDist=0), yade.InteractionLoop(
-        [yade.Ig2_Polyhedra_Polyhedra_PolyhedraGeom()],
-        [yade.Ip2_PolyhedraMat_PolyhedraMat_PolyhedraPhys()],
-        [yade.Law2_PolyhedraGeom_PolyhedraPhys_Volumetric()],
-    )
-
-
-def level_set(group):
-    key = id(group)
-    if key not in FIELDS:
-        FIELDS[key] = (*yade_level_set.signed_distances(group.corners, group.triangles, group.swept), group)
-    grid, field, _ = FIELDS[key]
-    return yade_level_set.body(grid, field, FRICTION)
-
-
-FIELDS = {}
-
-
-def level_set_engines():
-    return yade.InsertionSortCollider([yade.Bo1_LevelSet_Aabb()], verletDist=0), yade.InteractionLoop(
-        [yade.Ig2_LevelSet_LevelSet_ScGeom()],
-        [yade.Ip2_FrictMat_FrictMat_FrictPhys()],
-        [yade.Law2_ScGeom_FrictPhys_CundallStrack(neverErase=True)],
-    )
-
-
 FRICTION = yade.FrictMat(young=1e7, poisson=0.3, frictionAngle=0.3, density=2000.0)
-POLYHEDRAL = yade.PolyhedraMat(young=1e7, poisson=0.3, frictionAngle=0.3, density=2000.0)
 
 
 def main():
     yade.log.setDefaultLogLevel(
-        1)  # fatal errors only: some functors write a line a call, which takes longer than the call
+        1)  # fatal errors only: the functor writes a line a call, which takes longer than the call
     groups = pair_file.read(os.environ["PAIRS"])
     kept = (None, None)
     for line in sys.stdin:
-        request, name, way, *rest = line.split()
-        if kept[0] != (name, way):
-            kept = ((name, way), Scene(groups[name], way))
+        request, name, _, *rest = line.split()
+        if kept[0] != name:
+            kept = (name, Scene(groups[name]))
         found = kept[1].time(float(rest[1])) if request == "time" else kept[1].answers()
         print(">" + json.dumps(found), flush=True)
 

@@ -1,14 +1,11 @@
 //! Rock masses: how long slicing takes, and whether the volumes of the blocks sum to that of the domain. Writes
 //! out/rock/summary.json, and out/rock/slope.json for the picture; `-- quick` takes the small ones only.
 
-#[path = "../target/mod.rs"]
-mod target;
-
+use kit::target::{at_most, own_time, write_summary};
 use potential_particles::Plane;
 use potential_particles::rock::{FaceOf, Joint, JointSet, RockMass, SliceSettings, slice};
 use serde_json::{Value, json};
 use std::time::Instant;
-use target::{at_most, own_time, write_summary};
 
 /// Half of the side of the domains, m.
 const HALF: f64 = 50.0;

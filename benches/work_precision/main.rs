@@ -4,18 +4,12 @@
 //! stated target beside what was measured; `-- quick` takes a part of the pairs and rounds. The picture is drawn from
 //! these files by `benches/plot.py`.
 
-#[path = "../scene/mod.rs"]
-mod scene;
-#[path = "../../tests/support/mod.rs"]
-mod support;
-#[path = "../target/mod.rs"]
-mod target;
-
 mod clock;
-mod machine;
 mod speed;
 mod sweep;
 
+use kit::machine::Machine;
+use kit::target;
 use serde_json::json;
 use std::io;
 use std::path::Path;
@@ -39,7 +33,7 @@ fn main() -> io::Result<()> {
     } else {
         Effort { pyramids: 500, polyhedra: 100, rounds: 9, stride: 1 }
     };
-    let machine = machine::Machine::here();
+    let machine = Machine::here();
     println!("{}, {} cores, {}, {}", machine.processor, machine.cores, machine.system, machine.date);
     let groups = speed::measure(&effort);
     let mut targets = speed::targets(&groups);

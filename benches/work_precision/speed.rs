@@ -2,12 +2,12 @@
 
 use crate::Effort;
 use crate::clock::{self, Contestant, median};
-use crate::scene::facets::Facet;
-use crate::scene::polyhedra;
-use crate::scene::pyramids::{self, pyramid};
-use crate::scene::random::Random;
-use crate::scene::touching::{self, Touching};
-use crate::target::{at_least, at_most};
+use kit::random::Random;
+use kit::scene::facets::Facet;
+use kit::scene::polyhedra;
+use kit::scene::pyramids::{self, pyramid};
+use kit::scene::touching::{self, Touching};
+use kit::target::{at_least, at_most};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::internals::{Pair, reject};
 use potential_particles::{

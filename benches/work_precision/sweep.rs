@@ -2,8 +2,8 @@
 
 use crate::Effort;
 use crate::clock::{self, Contestant};
-use crate::support::{self, number, vector};
-use crate::target::at_most;
+use kit::target::at_most;
+use kit::truth::{self, number, vector};
 use nalgebra::Vector3;
 use potential_particles::{BackEnd, Flags, Formulation, Kind, Particle, Pose, Settings, detect};
 use serde_json::Value;
@@ -48,7 +48,7 @@ pub struct Record {
 }
 
 pub fn run(effort: &Effort) -> Vec<Record> {
-    let cases: Vec<Case> = support::pairs().into_iter().step_by(effort.stride).map(case).collect();
+    let cases: Vec<Case> = truth::pairs().into_iter().step_by(effort.stride).map(case).collect();
     let mut records = Vec::new();
     for formulation in [Formulation::Midway, Formulation::Closest] {
         let of = |case: &&Case| formulation == Formulation::Midway || case.closest.is_some();
@@ -78,7 +78,7 @@ pub fn run(effort: &Effort) -> Vec<Record> {
     records
 }
 
-fn case(pair: support::Pair) -> Case {
+fn case(pair: truth::Pair) -> Case {
     let (a, b, truth) = (pair.shape_a.particle(), pair.shape_b.particle(), &pair.truth);
     let closest = (truth.ok1 && truth.ok2).then(|| {
         let known = (truth.s_a.as_deref(), truth.p2.as_ref(), truth.s_b.as_deref(), truth.p1.as_ref());

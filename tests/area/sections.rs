@@ -1,6 +1,6 @@
 //! Sections of two particles, and those whose areas are known to 40 digits.
 
-use crate::support::{Shape, number};
+use kit::truth::{Shape, number};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::Section;
 use potential_particles::{Contact, Particle, Plane, Pose};

@@ -40,26 +40,6 @@ static void discs_of_spheres(void) {
     pp_particle_free(b);
 }
 
-/* With k = 0, cubes face to face show a square of the core's size whose rim is rounded by what the
- * cut leaves of r. */
-static void rounded_squares_of_cubes(void) {
-    const double core = 1.0, r = 0.25;
-    pp_particle *cube = new_cube(core, r, 0.0, 0.0);
-    const double parts[] = {0.1, 0.9, 0.999};
-    for (int i = 0; i < 3; i++) {
-        double t = parts[i], rim = r * sqrt((1 - t) * (1 + t));
-        pp_pose pose_a = pose_turned(-1, 2, 3, 0.8, 0.4, 0.4, 0.2), pose_b = pose_a;
-        const double axis[3] = {0, 0, 1};
-        double normal[3];
-        turn(&pose_a, axis, normal);
-        walk(pose_a.position, 2 * (core + t * r), normal, pose_b.position);
-        check_case("cubes at %g of the rounding", t);
-        check_area(cube, &pose_a, cube, &pose_b, 4 * core * core + 8 * core * rim + PI * rim * rim);
-    }
-    check_case(NULL);
-    pp_particle_free(cube);
-}
-
 static void null_is_refused(void) {
     pp_particle *sphere = new_sphere(1.0);
     pp_pose pose_a = pose_at(0, 0, 0), pose_b = pose_at(1.5, 0, 0);
@@ -119,7 +99,6 @@ static void tolerance_and_contact_are_checked(void) {
 
 void test_area(void) {
     discs_of_spheres();
-    rounded_squares_of_cubes();
     null_is_refused();
     tolerance_and_contact_are_checked();
 }

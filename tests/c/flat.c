@@ -45,36 +45,6 @@ static void a_sphere_on_a_plane(void) {
     pp_particle_free(ball);
 }
 
-static void a_sphere_at_each_part_of_a_triangle(void) {
-    pp_particle *ball = new_sphere(1.0);
-    static const struct {
-        double position[3];
-        uint32_t feature;
-        double nearest[3];
-    } places[] = {
-        {{0.25, 0.25, 0.5}, PP_ON_INTERIOR, {0.25, 0.25, 0}}, {{0.5, -0.5, 0.25}, PP_ON_EDGE, {0.5, 0, 0}},
-        {{0.75, 0.75, 0.25}, PP_ON_EDGE + 1, {0.5, 0.5, 0}},  {{-0.5, 0.25, 0.25}, PP_ON_EDGE + 2, {0, 0.25, 0}},
-        {{-0.25, -0.5, 0.5}, PP_ON_VERTEX, {0, 0, 0}},        {{1.5, -0.25, 0.25}, PP_ON_VERTEX + 1, {1, 0, 0}},
-        {{-0.5, 1.25, 0.25}, PP_ON_VERTEX + 2, {0, 1, 0}},
-    };
-    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
-        const double *p = places[i].position, *q = places[i].nearest;
-        pp_pose pose = pose_at(p[0], p[1], p[2]);
-        double distance = sqrt(pow(p[0] - q[0], 2) + pow(p[1] - q[1], 2) + pow(p[2] - q[2], 2)), normal[3];
-        for (int j = 0; j < 3; j++) normal[j] = (q[j] - p[j]) / distance;
-        pp_flat_contact contact;
-        check_case("place %d", (int)i);
-        if (!CHECK_STATUS(pp_contact_triangle(ball, &pose, vertices, NULL, NULL, &contact), PP_OK)) continue;
-        CHECK(contact.feature == places[i].feature && contact.kind == PP_OVERLAPPING);
-        CHECK_NEAR(contact.s, distance, contact.gap);
-        CHECK_NEAR(contact.overlap, 1 - distance, 1e-15);
-        CHECK_NEAR3(contact.normal, normal, 1e-15);
-        CHECK_NEAR3(contact.on_boundary, q, 1e-15);
-    }
-    check_case(NULL);
-    pp_particle_free(ball);
-}
-
 /* Both answers are the same within their bounds; one is told to be from memory. */
 static void check_same_contact(const pp_flat_contact *with, const pp_flat_contact *without, uint32_t warm) {
     CHECK(with->kind == without->kind && with->feature == without->feature);
@@ -131,17 +101,6 @@ static void a_seam_falls_towards_the_centre(void) {
     pp_particle_free(ball);
 }
 
-static void a_centre_on_the_plane_is_flagged(void) {
-    pp_particle *ball = new_sphere(1.0);
-    pp_pose pose = pose_at(2, 3, 0);
-    const double down[3] = {0, 0, -1};
-    pp_flat_contact contact;
-    CHECK_STATUS(pp_contact_plane(ball, &pose, origin, up, NULL, NULL, &contact), PP_OK);
-    CHECK((contact.flags & PP_FLAG_NORMAL_BY_BOUNDARY) != 0);
-    CHECK_NEAR3(contact.normal, down, 0);
-    pp_particle_free(ball);
-}
-
 static void bad_input_is_refused_and_nothing_written(void) {
     pp_particle *ball = new_sphere(1.0);
     pp_pose pose = pose_at(0, 0, 0.5), bad_pose = pose_at(0, NAN, 0), no_turn = pose_turned(0, 0, 0, 0, 0, 0, 0);
@@ -187,9 +146,7 @@ static void bad_input_is_refused_and_nothing_written(void) {
 
 void test_flat(void) {
     a_sphere_on_a_plane();
-    a_sphere_at_each_part_of_a_triangle();
     a_state_is_where_a_search_begins();
     a_seam_falls_towards_the_centre();
-    a_centre_on_the_plane_is_flagged();
     bad_input_is_refused_and_nothing_written();
 }

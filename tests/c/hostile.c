@@ -138,6 +138,26 @@ static void one_state_for_all(const pair_set *set) {
     check_case(NULL);
 }
 
+/* Positions that are finite one by one, yet whose difference is not: nobody can solve that, and a
+ * failed solve is neither "separated" nor an answer. */
+static void overflow_is_a_failure(void) {
+    pp_particle *a = new_sphere(1.0);
+    pp_pose pose_a = pose_at(-1.7e308, 0, 0), pose_b = pose_at(1.7e308, 0, 0);
+    for (int w = 0; w < WAYS; w++) {
+        pp_settings settings = settings_for(&ways[w]);
+        pp_contact contact;
+        pp_pair_state state;
+        FILL(contact);
+        FILL(state);
+        check_case("overflow, %s", ways[w].name);
+        CHECK_STATUS(pp_contact_detect(a, &pose_a, a, &pose_b, &settings, &state, &contact), PP_SOLVER_FAILED);
+        CHECK_UNTOUCHED(contact);
+        CHECK_UNTOUCHED(state);
+    }
+    check_case(NULL);
+    pp_particle_free(a);
+}
+
 void test_hostile(void) {
     pair_set set;
     pairs_new(&set);
@@ -145,5 +165,6 @@ void test_hostile(void) {
     particles_of_any_numbers();
     contacts_of_any_numbers(&set);
     one_state_for_all(&set);
+    overflow_is_a_failure();
     pairs_free(&set);
 }

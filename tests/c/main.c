@@ -27,15 +27,11 @@ int main(int count, char **arguments) {
     test_definition();
     test_pose();
     test_settings();
-    test_sphere_contact();
-    test_cube_contact();
     test_area();
     test_closest();
     test_pair_state();
-    test_carried();
     test_flat();
     test_hostile();
-    test_symmetry();
     test_threads();
     test_batch();
     test_planar();

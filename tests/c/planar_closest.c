@@ -1,4 +1,4 @@
-/* pp_closest_point_2d: one closest point alone, against closed forms and against pp_contact_detect_2d. */
+/* pp_closest_point_2d: one closest point alone, against closed forms. */
 #include "answer.h"
 #include "bodies.h"
 #include "check.h"
@@ -36,36 +36,6 @@ static void points_of_two_circles(void) {
     pp_particle_free_2d(large);
 }
 
-static void points_are_those_of_the_contact(void) {
-    pp_particle_2d *square = new_square_2d(0.4, 0.1, 0.2, 0.8), *circle = new_circle_2d(0.5);
-    for (int w = 2; w < WAYS; w++) { /* closest, by both back ends */
-        pp_settings settings = settings_for(&ways[w]);
-        accuracy allowed = accuracy_of(settings.back_end, 1.0);
-        for (int i = 0; i < 12; i++) {
-            check_case("square and circle %d, %s", i, ways[w].name);
-            const pp_pose_2d pose_a = {{5, -3}, 0.5 * i}, pose_b = {{5 + 0.7 * cos(i), -3 + 0.7 * sin(i)}, 2.0 * i};
-            pp_contact_2d contact;
-            pp_closest_2d on_a, on_b;
-            CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, circle, &pose_b, &settings, NULL, &contact), PP_OK);
-            CHECK_STATUS(pp_closest_point_2d(square, &pose_a, circle, &pose_b, PP_ON_A, &settings, &on_a), PP_OK);
-            CHECK_STATUS(pp_closest_point_2d(square, &pose_a, circle, &pose_b, PP_ON_B, &settings, &on_b), PP_OK);
-            CHECK(contact.kind == PP_OVERLAPPING && contact.formulation == PP_CLOSEST);
-            CHECK(on_a.slack == 0 && on_b.slack == 0);
-            CHECK_NEAR(on_a.s, contact.s_b, on_a.gap + contact.gap + 4 * DBL_EPSILON);
-            CHECK_NEAR(on_b.s, contact.s, on_b.gap + contact.gap + 4 * DBL_EPSILON);
-            CHECK_NEAR2(on_a.point, contact.point_on_a[0], contact.point_on_a[1], allowed.length);
-            CHECK_NEAR2(on_b.point, contact.point_on_b[0], contact.point_on_b[1], allowed.length);
-            for (int j = 0; j < 2; j++) {
-                CHECK_NEAR(on_a.branch_a[j], on_a.point[j] - pose_a.position[j], 1e-14);
-                CHECK_NEAR(on_b.branch_b[j], on_b.point[j] - pose_b.position[j], 1e-14);
-            }
-        }
-    }
-    check_case(NULL);
-    pp_particle_free_2d(square);
-    pp_particle_free_2d(circle);
-}
-
 static void refusals_write_nothing(void) {
     pp_particle_2d *circle = new_circle_2d(1.0);
     const pp_pose_2d here = {{0, 0}, 0}, there = {{1.5, 0}, 0}, nowhere = {{NAN, 0}, 0}, unturned = {{0, 0}, INFINITY};
@@ -88,6 +58,5 @@ static void refusals_write_nothing(void) {
 
 void test_planar_closest(void) {
     points_of_two_circles();
-    points_are_those_of_the_contact();
     refusals_write_nothing();
 }

@@ -1,7 +1,7 @@
 //! Walks over all that can be written down: every contact that is carried on against 30 digits.
 
-use crate::random::Random;
-use crate::shapes::{self, Hull, Recipe, Sphericity};
+use kit::random::Random;
+use kit::stress::shapes::{self, Hull, Recipe, Sphericity};
 use nalgebra::Vector3;
 use potential_particles::{Contact, Flags, Kind, PairState, Particle, Pose, Settings, detect};
 

@@ -1,7 +1,7 @@
 //! What holds for all derivatives: forward and reverse agree, and a motion of both bodies together moves the contact
 //! with them.
 
-use crate::support::pairs;
+use kit::truth::pairs;
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{
     Contact, ContactDerivatives, ContactWeights, Formulation, Kind, PoseGradient, PoseRow, Settings,

@@ -1,6 +1,6 @@
 //! Against differences in arithmetic of 130 digits (tests/data/derivatives.py).
 
-use crate::support::pairs;
+use kit::truth::pairs;
 use nalgebra::Vector3;
 use potential_particles::{
     Contact, ContactDerivatives, ContactWeights, Formulation, PoseRow, PoseRows, Settings, ShapeGradient,

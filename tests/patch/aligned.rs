@@ -1,7 +1,7 @@
 //! Boxes and prisms whose sides lie in line, against brute force: a running bond, stacks, edges along edges.
 
-use crate::bodies::{Chance, contact, cuboid};
-use crate::brute::{brute, frame_of};
+use kit::patch::bodies::{Chance, contact, cuboid};
+use kit::patch::brute::{brute, frame_of};
 use nalgebra::{Rotation3, Vector3};
 use potential_particles::{
     Particle, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Plane, Pose, patch_of_contact,

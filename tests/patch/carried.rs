@@ -1,7 +1,7 @@
 //! Patches that are carried on, against those that are integrated where they are.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid};
-use crate::boundaries::{Boundary, resting};
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid};
+use kit::patch::boundaries::{Boundary, resting};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use potential_particles::{
     Patch, PatchFlags, PatchScratch, PatchSettings, PatchState, Pose, Triangle, Wall, patch_of_contact,

@@ -1,7 +1,7 @@
 //! Patches in cells against the same by rays, which share nothing with them but the walk through a cell.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, facing, grain};
-use crate::boundaries::{Boundary, resting, triangle_over};
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, facing, grain};
+use kit::patch::boundaries::{Boundary, resting, triangle_over};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{
     Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Triangle, Wall, patch_of_contact,

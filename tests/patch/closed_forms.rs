@@ -1,7 +1,7 @@
 //! Patches that are known by a formula.
 
-use crate::bodies::{Pair, contact, cuboid};
 use crate::patch;
+use kit::patch::bodies::{Pair, contact, cuboid};
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use potential_particles::{Particle, Pose};
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4, PI};

@@ -1,7 +1,7 @@
 //! Energy, force and area by sums over a grid, straight from the definition.
 
-use crate::bodies::{Chance, Pair};
 use crate::patch;
+use kit::patch::bodies::{Chance, Pair};
 use nalgebra::Vector3;
 
 /// W/K = ℓ ∫ min(1 − s_A, 1 − s_B) dV and the force −∂W/∂x_B = ℓ ∫ ∇s_B dV where B decides, by the midpoint rule in a

@@ -1,7 +1,7 @@
 //! Estimated errors hold, from rounded to sharp bodies; points add up; deep contacts are flagged.
 
-use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
 use crate::patch;
+use kit::patch::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{Kind, Particle, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, patch_of_contact};
 

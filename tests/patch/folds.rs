@@ -1,8 +1,8 @@
 //! Deep overlaps of round bodies, where the patch turns back under itself: closed forms of spheres, the gradient of an
 //! energy that is summed over the volume, and walks through the onset.
 
-use crate::bodies::{Chance, FAMILIES, Pair, contact, cuboid, difference};
 use crate::patch;
+use kit::patch::bodies::{Chance, FAMILIES, Pair, contact, cuboid, difference};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{
     Particle, Patch, PatchFlags, PatchPoint, PatchScratch, PatchSettings, Pose, patch_of_contact,

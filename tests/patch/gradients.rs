@@ -1,7 +1,7 @@
 //! Force and torque are minus the gradient of the energy, which is another integral; and the stiffness is symmetric.
 
-use crate::bodies::{Chance, FAMILIES, Pair, difference};
 use crate::patch;
+use kit::patch::bodies::{Chance, FAMILIES, Pair, difference};
 use nalgebra::Vector3;
 use potential_particles::PatchFlags;
 

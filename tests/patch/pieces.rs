@@ -1,8 +1,8 @@
 //! Patches in pieces against the fan of rays, which computes them when the energy is asked for.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, cuboid};
-use crate::boundaries::{Boundary, resting, triangle_over};
 use crate::patch;
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, cuboid};
+use kit::patch::boundaries::{Boundary, resting, triangle_over};
 use nalgebra::{Matrix3, Rotation3, Vector3};
 use potential_particles::{
     Particle, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,

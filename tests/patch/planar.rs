@@ -1,6 +1,6 @@
 //! Patches of the plane against faces, discs, and the gradient of their energy.
 
-use crate::bodies::difference;
+use kit::patch::bodies::difference;
 use nalgebra::Vector2;
 use potential_particles::planar::{Particle, Patch, Pose, detect, patch_of_contact};
 use potential_particles::{Kind, PatchFlags, PatchScratch, PatchSettings, PatchState, Settings};

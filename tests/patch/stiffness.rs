@@ -1,9 +1,9 @@
 //! The stiffness against differences of force and torque, and against the symmetry of second derivatives of an energy.
 
-use crate::bodies::{Chance, FAMILIES, Pair, body, contact, difference};
-use crate::boundaries::{Boundary, resting};
 use crate::carried::moved;
 use crate::gradients::each;
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, contact, difference};
+use kit::patch::boundaries::{Boundary, resting};
 use nalgebra::{Matrix6, Vector3, Vector6};
 use potential_particles::{
     Contact, Patch, PatchFlags, PatchScratch, PatchSettings, Pose, Triangle, Wall, patch_of_contact,

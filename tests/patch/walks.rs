@@ -1,7 +1,7 @@
 //! Bodies that tilt, slide and roll: the wrench changes without jumps.
 
-use crate::bodies::{Pair, contact, cuboid};
 use crate::patch;
+use kit::patch::bodies::{Pair, contact, cuboid};
 use nalgebra::{Matrix3, Rotation3, Vector3, Vector6};
 use potential_particles::{Kind, Pose};
 

@@ -1,7 +1,7 @@
 //! Patches on planes, triangles and closed meshes.
 
-use crate::bodies::{Chance, FAMILIES, body, cuboid, difference, mesh_of_box};
-use crate::boundaries::resting;
+use kit::patch::bodies::{Chance, FAMILIES, body, cuboid, difference, mesh_of_box};
+use kit::patch::boundaries::resting;
 use nalgebra::{UnitQuaternion, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchScratch, PatchSettings, Pose, Settings, Triangle, Wall, contact_with_plane,

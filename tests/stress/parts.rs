@@ -1,14 +1,15 @@
 //! The parts beside the pairs in small; and their judges' own tests: right answers pass, planted errors are found.
 
-use crate::boundaries::Case;
-use crate::least::least;
-use crate::ledger::{Fault, Ledger, run};
-use crate::placed_boundary::{Boundary, Part};
-use crate::random::Random;
-use crate::reference::Body;
-use crate::wide::{Wide, Wide3};
-use crate::{THREADS, hulls, mass, memories, patches, planar, seams, walls};
+use crate::THREADS;
 use indicatif::ProgressBar;
+use kit::random::Random;
+use kit::stress::boundaries::Case;
+use kit::stress::least::least;
+use kit::stress::ledger::{Fault, Ledger, run};
+use kit::stress::placed_boundary::{Boundary, Part};
+use kit::stress::reference::Body;
+use kit::stress::{hulls, mass, memories, patches, planar, seams, walls};
+use kit::wide::{Wide, Wide3};
 use nalgebra::Vector3;
 use potential_particles::{Feature, FlatContact, Kind, Particle, Plane};
 use std::sync::atomic::AtomicBool;

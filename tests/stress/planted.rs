@@ -1,8 +1,8 @@
 //! The judge's own test: solvers with a planted error must be found out in bulk, where the second solver is asked only
 //! about answers that look doubtful; and the right one must not.
 
-use crate::cases::{BULK, Case, Shapes, family_of, next_group, stream};
-use crate::judge::{FULL, Failure, Shared, Solver, Trial, judge};
+use kit::stress::cases::{BULK, Case, Shapes, family_of, next_group, stream};
+use kit::stress::judge::{FULL, Failure, Shared, Solver, Trial, judge};
 use nalgebra::Vector3;
 use potential_particles::{Contact, DetectError, Kind, PairState, Particle, Plane, Pose, Settings, detect};
 use std::collections::BTreeMap;

@@ -1,11 +1,9 @@
 //! What judges must itself be right: numbers of 32 digits, and the second solver against the 40-digit solutions.
 
-use crate::reference::{Body, Wanted, optimum};
-use crate::wide::Wide;
+use kit::stress::reference::{Body, Wanted, optimum};
+use kit::truth;
+use kit::wide::Wide;
 use nalgebra::Vector3;
-
-#[path = "../support/mod.rs"]
-mod support;
 
 #[test]
 fn thirty_two_digits_are_kept() {
@@ -22,19 +20,19 @@ fn thirty_two_digits_are_kept() {
 #[test]
 fn the_second_solver_agrees_with_the_known_solutions() {
     let (mut settled, mut pairs) = (0, 0);
-    for pair in support::pairs() {
+    for pair in truth::pairs() {
         let (a, b) = (pair.shape_a.particle(), pair.shape_b.particle());
         let body_a = Body::new(&a, pair.a.pos, pair.a.q, pair.b.pos);
         let body_b = Body::new(&b, pair.b.pos, pair.b.q, pair.b.pos);
         let start = 0.5 * (Vector3::from(pair.a.pos) - Vector3::from(pair.b.pos));
         pairs += 1;
         let Some(found) = optimum(&body_a, &body_b, Wanted::Midway, &start, 1.0) else { continue };
-        let truth = support::number(&pair.truth.s4);
+        let truth = truth::number(&pair.truth.s4);
         let rounding = 4.0 * f64::EPSILON * truth;
         assert!(found.least <= truth + rounding && found.most >= truth - rounding, "{}: {found:?}", pair.family);
         if found.most - found.least <= 1e-14 * truth.max(1.0) {
             settled += 1;
-            let off = (found.x.f64() - support::vector(&pair.truth.x4)).norm();
+            let off = (found.x.f64() - truth::vector(&pair.truth.x4)).norm();
             let flat = a.sphericity().min(b.sphericity()) < 1e-12;
             assert!(flat || off <= found.doubt + 1e-14 * a.bounding_radius().max(b.bounding_radius()), "{off}");
         }

@@ -1,7 +1,7 @@
 //! The answer for one pair, as it is written.
 
 use crate::arguments::{self, Arguments};
-use crate::input::Input;
+use kit::pair_line::Input;
 use nalgebra::Vector3;
 use potential_particles::{
     BackEnd, ClosestPoint, Contact, Flags, Formulation, Kind, Role, Settings, closest_point, detect,

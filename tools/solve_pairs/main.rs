@@ -9,12 +9,12 @@
 mod answer;
 mod arguments;
 mod digits;
-mod input;
 
 use answer::Answer;
 use arguments::Arguments;
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use kit::pair_line;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, ErrorKind, IsTerminal, Write};
 use std::path::Path;
@@ -60,7 +60,7 @@ fn run(arguments: &Arguments) -> io::Result<usize> {
         if text.trim_ascii().is_empty() {
             continue;
         }
-        let answer = input::pair(&text).and_then(|pair| Answer::new(number, &pair, arguments));
+        let answer = pair_line::pair(&text).and_then(|pair| Answer::new(number, &pair, arguments));
         match answer {
             Ok(answer) => writeln!(answers, "{}", digits::json(&answer)?)?,
             Err(error) => {

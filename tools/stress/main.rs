@@ -7,58 +7,22 @@
 //! results. docs/reliability.md says what is checked and what was found.
 
 mod arguments;
-mod boundaries;
-#[path = "../../tests/patch/brute.rs"]
-mod brute;
-mod cases;
-mod clock;
-mod double;
-#[path = "../../benches/scene/evaluation.rs"]
-#[allow(dead_code)]
-mod evaluation;
-mod exact;
-mod hulls;
-mod judge;
-mod least;
-mod ledger;
-#[allow(dead_code)]
-mod line;
-#[path = "../../benches/work_precision/machine.rs"]
-#[allow(dead_code)]
-mod machine;
-mod mass;
-mod memories;
-mod pairs;
-mod patches;
-mod placed_boundary;
-mod planar;
-#[path = "../../benches/scene/random.rs"]
-#[allow(dead_code)]
-mod random;
-mod reference;
 mod replay;
 mod report;
-mod seams;
-mod shapes;
-#[path = "../../benches/target/summary.rs"]
-mod summary;
-mod sweeps;
-mod tally;
-mod walks;
-mod walls;
-mod wide;
 
 use arguments::{Arguments, Part};
-use cases::{BULK, FAMILIES};
 use clap::Parser;
 use indicatif::{ProgressBar, ProgressStyle};
-use ledger::Ledger;
+use kit::machine;
+use kit::stress::cases::{BULK, FAMILIES};
+use kit::stress::ledger::{self, Ledger};
+use kit::stress::tally::Tally;
+use kit::stress::{clock, hulls, mass, memories, pairs, patches, planar, seams, sweeps, walks, walls};
 use report::Findings;
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
-use tally::Tally;
 
 fn main() -> ExitCode {
     let arguments = Arguments::parse();

@@ -1,10 +1,10 @@
 //! One pair again, with everything that is known about it.
 
-use crate::cases::{Case, Shapes, stream};
-use crate::judge::{FULL, Shared, Trial, bodies};
-use crate::line::Line;
-use crate::pairs;
-use crate::reference::{Wanted, optimum};
+use kit::stress::cases::{Case, Shapes, stream};
+use kit::stress::judge::{FULL, Shared, Trial, bodies};
+use kit::stress::line::Line;
+use kit::stress::pairs;
+use kit::stress::reference::{Wanted, optimum};
 use potential_particles::detect;
 use std::process::ExitCode;
 

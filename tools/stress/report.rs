@@ -1,15 +1,15 @@
 //! What was found: a table for the terminal, summary.json, and the pairs themselves.
 
-use crate::cases::{Case, FAMILIES, Shapes, family_of};
-use crate::clock::{CALLS, Call};
-use crate::judge::{Doubt, Failure, PATHS};
-use crate::ledger::{Fault, Ledger};
-use crate::line::Line;
-use crate::machine::Machine;
-use crate::mass;
-use crate::summary::write_summary;
-use crate::sweeps::Sweep;
-use crate::tally::{Distribution, OfFamily, Tally};
+use kit::machine::Machine;
+use kit::stress::cases::{Case, FAMILIES, Shapes, family_of};
+use kit::stress::clock::{CALLS, Call};
+use kit::stress::judge::{Doubt, Failure, PATHS};
+use kit::stress::ledger::{Fault, Ledger};
+use kit::stress::line::Line;
+use kit::stress::mass;
+use kit::stress::sweeps::Sweep;
+use kit::stress::tally::{Distribution, OfFamily, Tally};
+use kit::target::write_summary;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs;

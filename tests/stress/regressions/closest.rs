@@ -1,7 +1,7 @@
 //! The closest points.
 
 use super::{judged, judged_by, solved};
-use crate::judge::Failure::*;
+use kit::stress::judge::Failure::*;
 use potential_particles::Formulation;
 
 /// r/size of 1e-10 against 1e-4: midway was answered, closest was not.

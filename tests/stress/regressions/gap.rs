@@ -1,7 +1,7 @@
 //! The scale s and its gap, which holds and is no wider than rounding explains; and on which side of contact a pair is.
 
 use super::{judged, judged_by};
-use crate::judge::Failure::*;
+use kit::stress::judge::Failure::*;
 
 /// Planes of r/size = 6e-8 that push or pull by less than their depth is known; once more with k = 1e-10.
 #[test]

@@ -6,9 +6,9 @@ mod gap;
 mod point;
 mod surface;
 
-use crate::cases::{Case, stream};
-use crate::judge::{Failure, Shared, Trial, judge};
-use crate::line::Line;
+use kit::stress::cases::{Case, stream};
+use kit::stress::judge::{Failure, Shared, Trial, judge};
+use kit::stress::line::Line;
 use potential_particles::{Contact, Formulation, Settings, detect};
 
 /// The pair of this name.

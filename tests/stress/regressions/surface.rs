@@ -1,7 +1,7 @@
 //! The points on both surfaces, and the overlap between them.
 
 use super::{judged, judged_by};
-use crate::judge::Failure::*;
+use kit::stress::judge::Failure::*;
 
 /// The small body lies deep in the other; the ray from P3 ended at its start, the overlap was that of one body alone.
 #[test]

@@ -1,13 +1,12 @@
 //! This library. Ways: midway, closest, carried (in a batch, as the YADE plugin asks), cone_program (clarabel on the
-//! paper's cone program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the end; with
-//! `midway+wait` each call waits for the answer of the one before, where else the processor works on several at a time.
+//! paper's cone program); `midway@1e-14` sets gap_tolerance; `midway+all` solves pairs that are apart to the
+//! end.
 
 use peers::scene::{Group, Placement};
 use peers::server::{Answer, Contestant, serve};
 use potential_particles::{
     BackEnd, Contact, DetectError, Formulation, Kind, PairState, Particle, Plane, Pose, Settings, detect, detect_batch,
 };
-use std::hint::black_box;
 
 /// To what part of the size the point of a contact that is carried on is known: the plugin's default.
 const CARRY_TOLERANCE: f64 = 1e-9;
@@ -20,8 +19,6 @@ struct Ours {
     b: Vec<Vec<Pose>>,
     states: Vec<PairState>,
     answers: Vec<Answer>,
-    /// What is left of the bits of an answer in the index of the next pair: 0, but all are there to make it wait.
-    kept_of_answer: Option<usize>,
 }
 
 /// All pairs of a time in one call.
@@ -34,7 +31,6 @@ struct Batch {
 
 fn main() {
     serve(|group, way| {
-        let (way, waits) = way.strip_suffix("+wait").map_or((way, false), |way| (way, true));
         let (way, all) = way.strip_suffix("+all").map_or((way, false), |way| (way, true));
         let (way, tolerance) = way.split_once('@').unwrap_or((way, "1e-12"));
         let mut settings = Settings::default().with_solve_separated(all);
@@ -46,13 +42,13 @@ fn main() {
             "cone_program" => settings.back_end = BackEnd::ConeProgram,
             _ => return None,
         }
-        let ours = Ours::new(group, settings, waits.then(|| black_box(0)));
+        let ours = Ours::new(group, settings);
         Some(if way == "carried" { Box::new(Batch::new(ours)) } else { Box::new(ours) })
     });
 }
 
 impl Ours {
-    fn new(group: &Group, settings: Settings, kept_of_answer: Option<usize>) -> Self {
+    fn new(group: &Group, settings: Settings) -> Self {
         let planes: Vec<Plane> = group.planes.iter().map(|&plane| Plane::from(plane)).collect();
         let times = group.pairs[0].b.len();
         Self {
@@ -62,21 +58,15 @@ impl Ours {
             b: (0..times).map(|time| group.pairs.iter().map(|pair| pose(&pair.b[time])).collect()).collect(),
             states: vec![PairState::default(); group.pairs.len()],
             answers: vec![Answer::Failed; group.pairs.len()],
-            kept_of_answer,
         }
     }
 }
 
 impl Contestant for Ours {
     fn pass(&mut self, time: usize, warm: bool) {
-        let mut wait = 0;
         for i in 0..self.states.len() {
-            let i = i + wait;
             let state = warm.then_some(&mut self.states[i]);
             let found = detect(&self.particle, &self.a[i], &self.particle, &self.b[time][i], &self.settings, state);
-            if let (Some(kept), Ok(contact)) = (self.kept_of_answer, &found) {
-                wait = contact.overlap.to_bits() as usize & kept;
-            }
             self.answers[i] = answer(&found);
         }
     }
