@@ -2,8 +2,8 @@
 //!
 //! The convex hull of the corners is cut into triangles from its centroid. A triangle of area A takes A/12 at each of
 //! its corners and 3 A/4 at its centroid, which is exact to the second degree: stiffness against shifts and turns is
-//! that of an elastic layer, so that splitting a polygon does not change it. The corners are points, since a block turns
-//! over about them.
+//! that of an elastic layer, so that splitting a polygon does not change it. The corners are points, since a block
+//! turns over about them.
 
 use super::scene::Contact;
 use nalgebra::Vector3;
