@@ -1,14 +1,14 @@
 //! Equilibrium: closed forms, and how time and memory grow with the number of blocks. Writes
-//! out/equilibrium/summary.json, and out/equilibrium/wall.json for the picture; `-- quick` takes the small scenes only.
+//! out/equilibrium/summary.json, and out/equilibrium/drawn.json for the pictures; `-- quick` takes the small scenes only.
 
-use kit::masonry::{arch, block, ferris_tin_loi, pushed, random_slope, v, wall, wedge};
+use kit::masonry::{arch, block, ferris_tin_loi, pushed, random_rock, random_slope, v, wall, wedge};
 use kit::target::{self, at_most, own_time};
 use potential_particles::Plane;
 use potential_particles::equilibrium::{
-    EquilibriumError, Flow, JointStrength, Load, Scene, load_factor, stands, strength_factor,
+    Body, Equilibrium, EquilibriumError, Flow, JointStrength, Scene, Velocity, load_factor, stands, strength_factor,
 };
 use potential_particles::nalgebra::Vector3;
-use potential_particles::rock::{JointSet, SliceSettings, slice};
+use potential_particles::rock::{Block, JointSet, SliceSettings, slice};
 use serde_json::{Value, json};
 
 const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
@@ -59,7 +59,7 @@ fn main() {
         target::write_summary(format!("out/equilibrium/{name}"), value).expect("out/equilibrium");
     };
     write("summary.json", &json!({"rows": rows, "targets": targets}));
-    write("wall.json", &drawn());
+    write("drawn.json", &drawn());
 }
 
 /// Differences from closed forms; the thickness of the arch by bisection.
@@ -166,44 +166,45 @@ fn timed(name: &str, scene: &Scene, flow: Flow) -> Value {
         "seconds": seconds, "megabytes": megabytes, "status": status})
 }
 
-/// A wall at its limit: outlines, velocities, forces at corners and the use of friction, for both flows.
+/// A wall and a slope with held sides at their limits.
 fn drawn() -> Value {
-    let scene = pushed(wall(6, 8, 0.65));
+    let wall = pushed(wall(6, 8, 0.65));
+    let front = |body: &Body| {
+        let half = 0.5 * body.dead.force.norm();
+        vec![[(-half, -0.5), (half, -0.5), (half, 0.5), (-half, 0.5)].map(|(x, z)| body.centre + v(x, 0.0, z)).to_vec()]
+    };
+    let fronts: Vec<_> = wall.bodies.iter().map(front).collect();
+    let (mass, slope) = random_rock(30, 60.0);
+    let outline = |block: &Block| block.faces.iter().map(|face| block.corners_of(face).to_vec());
+    let outlines: Vec<Vec<Vec<_>>> = mass.blocks.iter().map(|block| outline(block).collect()).collect();
+    json!({
+        "wall": at_limit("load factor", &wall, &fronts, |flow| load_factor(&wall, flow)),
+        "slope": at_limit("factor of safety", &slope, &outlines, |flow| strength_factor(&slope, flow)),
+    })
+}
+
+/// For both flows: faces, velocities, forces at corners and the use of friction.
+fn at_limit(
+    name: &str,
+    scene: &Scene,
+    faces: &[Vec<Vec<Vector3<f64>>>],
+    ask: impl Fn(Flow) -> Result<Equilibrium, EquilibriumError>,
+) -> Value {
+    let list = |v: Vector3<f64>| <[f64; 3]>::from(v);
     let of = |flow: Flow| {
-        let found = load_factor(&scene, flow).expect("a factor");
-        let mut forces = found.forces.iter();
-        let contacts: Vec<Value> = scene
-            .contacts
-            .iter()
-            .map(|contact| {
-                let normal = contact.normal.normalize();
-                let (mut n, mut t) = (0.0, Vector3::zeros());
-                let corners: Vec<Value> = contact
-                    .corners
-                    .iter()
-                    .map(|at| {
-                        let force = forces.next().expect("a force at each corner");
-                        n += force.dot(&normal);
-                        t += force - force.dot(&normal) * normal;
-                        json!([<[f64; 3]>::from(*at), <[f64; 3]>::from(*force)])
-                    })
-                    .collect();
-                json!({"corners": corners, "use": t.norm() / (contact.friction * n).max(1e-12), "force": n})
-            })
-            .collect();
-        let bodies: Vec<Value> = scene
-            .bodies
-            .iter()
-            .zip(&found.mechanism)
-            .skip(1)
-            .map(|(body, velocity)| {
-                let Load { force, .. } = body.dead;
-                json!({"centre": <[f64; 3]>::from(body.centre), "length": force.norm(),
-                "linear": <[f64; 3]>::from(velocity.linear), "angular": <[f64; 3]>::from(velocity.angular)})
-            })
-            .collect();
-        println!("drawn wall, {flow:?}: {:.4}, {} solves", found.factor, found.solves);
-        json!({"factor": found.factor, "solves": found.solves, "bodies": bodies, "contacts": contacts})
+        let found = ask(flow).expect("a factor");
+        let used = scene.contacts.iter().zip(&found.contacts);
+        let used: Vec<f64> = used.flat_map(|(contact, of)| vec![of.used; contact.corners.len()]).collect();
+        let corners: Vec<_> = scene.contacts.iter().flat_map(|contact| &contact.corners).map(|at| list(*at)).collect();
+        let body = |((body, faces), velocity): ((&Body, &Vec<Vec<Vector3<f64>>>), &Velocity)| {
+            let faces: Vec<Vec<_>> = faces.iter().map(|face| face.iter().map(|at| list(*at)).collect()).collect();
+            json!({"centre": list(body.centre), "faces": faces, "held": body.held,
+                "linear": list(velocity.linear), "angular": list(velocity.angular)})
+        };
+        let bodies = scene.bodies.iter().zip(faces).zip(&found.mechanism);
+        println!("drawn, {name}, {flow:?}: {:.4}, {} solves", found.factor, found.solves);
+        json!({"title": format!("{name} {:.3}", found.factor), "bodies": bodies.map(body).collect::<Vec<_>>(),
+            "corners": corners, "forces": found.forces.iter().map(|f| list(*f)).collect::<Vec<_>>(), "used": used})
     };
     json!({"associated": of(Flow::Associated), "without dilatancy": of(Flow::NonDilatant)})
 }

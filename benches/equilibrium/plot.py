@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A wall at its limit, moved along its mechanism, with forces and the use of friction: python3
+"""A wall and a slope at their limits, moved along their mechanisms, with forces and the use of friction: python3
 benches/equilibrium/plot.py; reads and writes out/equilibrium.
 """
 import json
@@ -12,12 +12,13 @@ ROOT, OUT = Path(__file__).resolve().parents[2], Path("out/equilibrium")
 sys.path.append(str(ROOT / "yade-glue/python/potential_particles/output"))
 from equilibrium_picture import Block, picture
 
-SIDE = 0.5 * np.array([[-1, 0, -1], [1, 0, -1], [1, 0, 1], [-1, 0, 1]])
-
-answers = []
-for name, wall in json.loads((OUT / "wall.json").read_text()).items():
-    blocks = [Block([np.array(body["centre"]) + SIDE * (body["length"], 0, 1)], np.array(body["centre"]),
-                    np.array(body["linear"]), np.array(body["angular"])) for body in wall["bodies"]]
-    corners = [(at, force, contact["use"]) for contact in wall["contacts"] for at, force in contact["corners"]]
-    answers.append((f"{name}: load factor {wall['factor']:.4f}", blocks, *map(np.array, zip(*corners))))
-picture(answers).savefig(OUT / "equilibrium.png", dpi=110)
+for name, flows in json.loads((OUT / "drawn.json").read_text()).items():
+    answers = []
+    for flow, found in flows.items():
+        blocks = [Block([np.array(face) for face in body["faces"]], *(np.array(body[of]) for of in
+                        ("centre", "linear", "angular")), body["held"]) for body in found["bodies"] if body["faces"]]
+        answers.append((f"{flow}: {found['title']}", blocks,
+                        *(np.array(found[of]) for of in ("corners", "forces", "used"))))
+    # The slope's face looks to the right of the picture.
+    towards = (0, -1, 0) if name == "wall" else (0.5, -1, 0.4)
+    picture(answers, towards).savefig(OUT / f"{name}.png", dpi=110)

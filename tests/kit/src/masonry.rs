@@ -3,7 +3,7 @@
 use potential_particles::Plane;
 use potential_particles::equilibrium::{Body, Contact, JointStrength, Load, Scene};
 use potential_particles::nalgebra::{Matrix3, Vector3};
-use potential_particles::rock::{JointSet, SliceSettings, slice};
+use potential_particles::rock::{JointSet, RockMass, SliceSettings, slice};
 use rand_pcg::Pcg64;
 use rand_pcg::rand_core::{RngCore, SeedableRng};
 
@@ -167,6 +167,10 @@ pub fn wedge(planes: [[f64; 2]; 2], face: [f64; 2], friction: f64) -> (Scene, f6
 /// A slope, 8 high, whose face dips at an angle, cut by joint sets; blocks on its other sides but the top are held.
 /// Friction of 35 degrees.
 pub fn slope(face: f64, sets: &[JointSet]) -> Scene {
+    slope_of_rock(face, sets).1
+}
+
+fn slope_of_rock(face: f64, sets: &[JointSet]) -> (RockMass, Scene) {
     let outwards = v(face.to_radians().sin(), 0.0, face.to_radians().cos());
     let side = |i: usize, offset: f64| Plane { normal: Vector3::ith(i / 2, [-1.0, 1.0][i % 2]), offset };
     let mut domain: Vec<Plane> = (0..6).zip([0.0, 10.0, 0.0, 10.0, 0.0, 8.0]).map(|(i, at)| side(i, at)).collect();
@@ -179,11 +183,17 @@ pub fn slope(face: f64, sets: &[JointSet]) -> Scene {
         !mass.blocks[block].corners.iter().all(is_inside)
     };
     let strength = JointStrength { friction: 35.0_f64.to_radians().tan(), ..JointStrength::default() };
-    Scene::of_rock(&mass, v(0.0, 0.0, -26e3), is_held, |_| strength)
+    let scene = Scene::of_rock(&mass, v(0.0, 0.0, -26e3), is_held, |_| strength);
+    (mass, scene)
 }
 
 /// A slope cut by three random sets into about that many blocks.
 pub fn random_slope(seed: u64, blocks: f64) -> Scene {
+    random_rock(seed, blocks).1
+}
+
+/// The same with its rock mass.
+pub fn random_rock(seed: u64, blocks: f64) -> (RockMass, Scene) {
     let mut random = Pcg64::seed_from_u64(seed);
     let mut uniform = |low: f64, high: f64| low + (high - low) * (random.next_u64() >> 11) as f64 / (1u64 << 53) as f64;
     let (face, spacing) = (uniform(50.0, 75.0), (800.0 / blocks).cbrt() * uniform(0.8, 1.2));
@@ -192,7 +202,7 @@ pub fn random_slope(seed: u64, blocks: f64) -> Scene {
         let set = JointSet::new(uniform(0.0, 1.0).acos().to_degrees(), uniform(0.0, 360.0), spacing);
         JointSet { fisher, seed: uniform(0.0, 1e6) as u64, ..set }
     });
-    slope(face, &sets)
+    slope_of_rock(face, &sets)
 }
 
 /// A scene whose live loads are the dead ones turned along x.
