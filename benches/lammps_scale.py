@@ -23,7 +23,7 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 
 TOP = Path(__file__).resolve().parent.parent
-sys.path[:0] = [str(TOP / "studies"), str(TOP / "lammps-glue" / "python"), str(TOP / "benches" / "peers"),
+sys.path[:0] = [str(TOP / "studies"), str(TOP / "out" / "lammps" / "build" / "python"), str(TOP / "benches" / "peers"),
                  str(TOP / "benches" / "steps")]
 
 import timed_run
@@ -225,8 +225,8 @@ def polyhedra():
     _, _, _, warm, windows, steps = RUNS["polyhedra_2000"]
     shape, states = pyramid(), pile(PYRAMIDS)
     core = Polyhedron(shape.planes[:, :3], shape.planes[:, 3])
-    mass = 2600.0 * shape.volume
-    heap = Pile(core, _faces(core), shape.r, mass, 2600.0 * np.diag(shape.inertia),
+    mass = shape.mass_properties()
+    heap = Pile(core, _faces(core), shape.r, 2600.0 * mass.volume, 2600.0 * np.diag(mass.inertia),
                 (STIFFNESS, 100.0, 0.0, FRICTION, 9.81, TIME_STEP))
     half = half_width(PYRAMIDS, states)
     heap.write(OUT, states, (half + 1e-6, float(states["pos"][:, 2].max())))

@@ -17,8 +17,7 @@ from pathlib import Path
 import numpy as np
 
 import potential_particles as pp
-sys.path[:0] = [str(Path(__file__).resolve().parents[2] / folder) for folder in ("studies", "lammps-glue/python")]
-from potential_particles_lammps.library import struct
+sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "studies"))
 from summary import print_targets, target, write_summary
 
 TOP = Path(__file__).resolve().parents[2]
@@ -44,8 +43,12 @@ class Library:
         return made.value
 
     def settings(self, carry):
-        """A struct pp_settings with this carry_tolerance."""
-        settings = struct("pp_settings")()
+        """A struct pp_settings with this carry_tolerance, whose fields the library tells."""
+        self.library.pp_struct_fields.restype = ctypes.c_char_p
+        kinds = {"f8": ctypes.c_double, "i4": ctypes.c_int32, "u4": ctypes.c_uint32}
+        rows = [row.split() for row in self.library.pp_struct_fields(b"pp_settings").decode().splitlines()]
+        fields = [(name, kinds[kind] * int(count) if count != "1" else kinds[kind]) for name, kind, count, _ in rows]
+        settings = type("pp_settings", (ctypes.Structure, ), {"_fields_": fields})()
         self.library.pp_settings_default(ctypes.byref(settings))
         settings.carry_tolerance = carry
         return settings
