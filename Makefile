@@ -21,13 +21,13 @@ Contact detection between potential particles.
 
   make deb        Debian packages of the library and the plugin, built in a Debian 12 and a 13 of their own; needs root; results in out/packages
   make packages-test  builds them, and installs, uses and removes them in a bare Debian 12 and 13
-  make install    the library for C and C++ programs: header, pkg-config and CMake files; PREFIX=/usr/local DESTDIR=; make uninstall removes it
+  make install    the library for C, C++ and Python programs: header, pkg-config and CMake files, package; PREFIX=/usr/local DESTDIR=; make uninstall removes it
 
   make test-flaky  the scenes of YADE and LAMMPS again and again, each time in other surroundings: locale, memory, user, threads; out/flaky
   make test-debian13  set up, build and test in a Debian 13 of its own, beside this system; needs root; SUITE=sid: in unstable
 
   make setup    install what is missing from Debian (YADE, compilers, Boost, Eigen, ...)
-  make build    the library and the YADE plugin
+  make build    the library, its module of Python and the YADE plugin
   make library  the library alone: target/release/libpotential_particles.so
   make header   write include/potential_particles.h anew from src/capi
   make lint     formatting, warnings, and the words of the guide
@@ -92,6 +92,7 @@ MAKEFLAGS += --no-print-directory
 override CARGO_TARGET_DIR := $(shell realpath -m -- "$(or $(CARGO_TARGET_DIR),target)")
 export CARGO_TARGET_DIR
 LIBRARY := $(CARGO_TARGET_DIR)/release/libpotential_particles.so
+CORE := $(CARGO_TARGET_DIR)/maturin/release/lib_core.so
 GLUE_BUILD := yade-glue/build
 
 # Where rustup puts cargo, for shells that were open before.
@@ -100,7 +101,7 @@ export PATH := $(PATH):$(HOME)/.cargo/bin
 COMMA := ,
 heading = @printf '== %s\n' '$(1)'
 
-.PHONY: check scenes lammps sanitize wheel guide deb packages-test install uninstall help demo wedge classics mpi scale test test-all test-flaky test-debian13 side-by-side patch rock equilibrium patch-yade time-step peers setup build library glue header lint release-check bench stress fuzz long clean
+.PHONY: check scenes lammps sanitize wheel guide deb packages-test install uninstall help demo wedge classics mpi scale test test-all test-flaky test-debian13 side-by-side patch rock equilibrium patch-yade time-step peers setup build library core glue header lint release-check bench stress fuzz long clean
 .DEFAULT_GOAL := help
 # The steps of one goal build on each other in the order in which they are named.
 .NOTPARALLEL:
@@ -117,10 +118,15 @@ library:
 	$(call heading,Library)
 	@scripts/library.sh
 
+# The module of Python that YADE, LAMMPS's Python and the wheel share.
+core:
+	$(call heading,Module of Python)
+	@scripts/core.sh >/dev/null
+
 # Compares the plugin with the installed YADE, too, whenever it was built anew.
-glue: setup library
+glue: setup library core
 	$(call heading,YADE plugin)
-	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY="$(LIBRARY)" -DPP_WERROR=$(WERROR) >/dev/null
+	@cmake -S yade-glue -B $(GLUE_BUILD) -DPP_LIBRARY="$(LIBRARY)" -DPP_CORE="$(CORE)" -DPP_WERROR=$(WERROR) >/dev/null
 	@cmake --build $(GLUE_BUILD) --parallel $$(nproc)
 
 build: glue
@@ -201,6 +207,7 @@ deb packages-test:
 install uninstall: export PREFIX := $(PREFIX)
 install uninstall: export DESTDIR := $(DESTDIR)
 install uninstall: export LIBDIR := $(LIBDIR)
+install uninstall: export PYTHON_DIR := $(if $(filter undefined,$(origin PYTHON_DIR)),$(or $(PREFIX),/usr/local)/lib/python3/dist-packages,$(PYTHON_DIR))
 install:
 	@scripts/install.sh
 
@@ -231,9 +238,9 @@ side-by-side: glue
 # YADE and its Python are not instrumented: the sanitizers see what the plugin does, and reads and writes of the memory it takes. Leaks are
 # YADE's, which frees nothing at its end; the types of its objects are known to the compiler by our declarations only (vptr).
 SANITIZERS := -fsanitize=address,undefined -fno-sanitize=vptr -fno-omit-frame-pointer -O1
-sanitize: setup library
+sanitize: setup library core
 	$(call heading,Plugin under sanitizers)
-	@cmake -S yade-glue -B out/sanitize -DPP_LIBRARY="$(LIBRARY)" -DCMAKE_CXX_FLAGS="$(SANITIZERS)" >/dev/null
+	@cmake -S yade-glue -B out/sanitize -DPP_LIBRARY="$(LIBRARY)" -DPP_CORE="$(CORE)" -DCMAKE_CXX_FLAGS="$(SANITIZERS)" >/dev/null
 	@cmake --build out/sanitize --parallel $$(nproc)
 	@LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 \
 	UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 tests/yade/run.py --package out/sanitize/python -j1 -j2

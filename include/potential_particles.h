@@ -71,21 +71,6 @@
 // PP_ABI_VERSION.
 #define PP_ABI_VERSION 3
 
-// Forms of pp_particle_round: a cylinder along z, {radius, height}.
-#define PP_ROUND_CYLINDER 0
-
-// A cone along z, its tip above: {radius, height}.
-#define PP_ROUND_CONE 1
-
-// An ellipsoid of semi-axes along x, y, z, {a, b, c}: exact, of 6 planes.
-#define PP_ROUND_ELLIPSOID 2
-
-// All points within a distance of a segment along z, {radius, length}: exact, of 6 planes.
-#define PP_ROUND_CAPSULE 3
-
-// (|x/a|^(2/e) + |y/b|^(2/e))^(e/n) + |z/c|^(2/n) <= 1, {a, b, c, n, e}: n and e from 0.1 to 2.
-#define PP_ROUND_SUPERQUADRIC 4
-
 // Question of pp_equilibrium: do forces exist that hold all bodies?
 #define PP_STANDS 0
 
@@ -104,42 +89,11 @@
 // It is vertex 0; PP_ON_VERTEX + i: vertex i.
 #define PP_ON_VERTEX 4
 
-// A box, sides along the axes.
-#define PP_BOX 0
-
-// The upright cylinder that stands in a box, as wide as its smaller width.
-#define PP_CYLINDER 1
-
-// Bodies anywhere in the container, the largest first: random sequential addition.
-#define PP_SCATTERED 0
-
-// Each body as low as it gets, from the bottom upwards: a loose packing.
-#define PP_SETTLED 1
-
-// Rows of sizes: a size, and its share of the number of bodies; shares add up to 1.
-#define PP_BY_NUMBER 0
-
-// Rows of sizes: a size, and its share of the mass; shares add up to 1.
-#define PP_BY_MASS 1
-
-// Rows of sizes: a grading curve, each row a size and the share of the mass in smaller bodies, linear
-// between rows. Sizes increase from row to row, and shares from 0 to 1.
-#define PP_PASSING 2
-
 // Most planes that a particle may have.
 #define PP_MAX_PLANES 65536
 
 // Size of a message buffer that holds every message whole.
 #define PP_MESSAGE_SIZE 512
-
-// A side of the domain.
-#define PP_FACE_OF_DOMAIN 0
-
-// A joint.
-#define PP_FACE_OF_JOINT 1
-
-// A plane of a region.
-#define PP_FACE_OF_REGION 2
 
 // Formulation "midway" (paper eqs 4 and 44): minimise t with s_A <= t and s_B <= t.
 #define PP_MIDWAY 0
@@ -262,12 +216,6 @@ typedef struct pp_particle pp_particle;
 // A validated particle of the plane. Created by pp_particle_new_2d, released by
 // pp_particle_free_2d; immutable, so that bodies and threads may share one.
 typedef struct pp_particle_2d pp_particle_2d;
-
-// A sharp convex body. Released by pp_polyhedron_free; immutable.
-typedef struct pp_polyhedron pp_polyhedron;
-
-// A rock mass that was cut. Created by pp_rock_new, released by pp_rock_free; it never changes.
-typedef struct pp_rock pp_rock;
 
 // What every function of the C interface returns: PP_OK or a positive code.
 typedef int32_t pp_status;
@@ -408,7 +356,7 @@ typedef struct pp_built {
     double orientation[4];
     // Of the particle in its own frame, to 1e-6; with more than 30 planes to 1e-4.
     struct pp_mass_properties mass;
-    // Volume of what it was made of: of the sharp body, or of the round one that was asked for.
+    // Volume of the sharp body that it was made of.
     double sharp_volume;
 } pp_built;
 
@@ -602,49 +550,6 @@ typedef struct pp_equilibrium_result {
     // Number of matrices that were factorised, or of cone programs.
     uint64_t solves;
 } pp_equilibrium_result;
-
-// What pp_pack fills, and how.
-typedef struct pp_packing {
-    // PP_BOX or PP_CYLINDER.
-    uint32_t container;
-    // PP_SCATTERED or PP_SETTLED.
-    uint32_t arrangement;
-    // What the rows of sizes mean: PP_BY_NUMBER, PP_BY_MASS or PP_PASSING.
-    uint32_t shares;
-    // Threads that work on it, the calling one among them: 0 and 1 mean the calling thread alone.
-    uint32_t threads;
-    // Lowest corner of the box, or of that about the cylinder; world frame, z upwards, length.
-    double lower[3];
-    // Highest corner of it.
-    double upper[3];
-    // Least distance between two bodies, length; that of a body to the container is half of it. Bodies are
-    // a millionth of their size apart in any case.
-    double margin;
-    // The same seed gives the same packing, whatever the number of threads.
-    uint64_t seed;
-    // How many bodies; 0: as many as fit (PP_SETTLED only).
-    uint64_t number;
-} pp_packing;
-
-// A body of a packing: a shape, scaled, at a pose.
-typedef struct pp_placement {
-    // Where it is.
-    struct pp_pose pose;
-    // Factor by which d, r and R of the shape are multiplied.
-    double scale;
-    // Index into the shapes.
-    uint32_t shape;
-    // Always 0.
-    uint32_t reserved;
-} pp_placement;
-
-// Receives bodies that have found their places, each once, in the calling thread, several times during
-// pp_pack; also with a count of 0, when none has for a while. Returns 0 to go on; anything else ends the
-// packing with the bodies handed over so far.
-//
-// context: as given to pp_pack. placements: valid during this call only, and not to be read when count is
-// 0. It may call functions of this library; no exception and no longjmp may leave it.
-typedef int32_t (*pp_placed)(void *context, const struct pp_placement *placements, size_t count);
 
 // What one ordered pair (A, B), or a particle A and a flat boundary, keeps of its patch. While no point of it
 // has moved by more than 0.3 sqrt(tolerance) of the largest depth, the next ones follow from it without an
@@ -875,131 +780,6 @@ typedef struct pp_area_properties {
     double error;
 } pp_area_properties;
 
-// A joint: a plane, or a disc or polygon of it.
-typedef struct pp_joint {
-    // A point of it, length; of a disc its centre, of a polygon the mean of its corners.
-    double point[3];
-    // Normal, of any length.
-    double normal[3];
-    // Radius of a disc, length; infinite for a joint without end; of a polygon that of a disc that holds it.
-    double radius;
-} pp_joint;
-
-// Limits of a rock mass.
-typedef struct pp_slice_settings {
-    // A joint leaves a block whole if a part would have less than this volume.
-    double least_volume;
-    // It also leaves it whole if a part would be thinner than this: 2 V / A of the part's volume and
-    // surface, length (a third of the edge of a cube).
-    double least_thickness;
-    // And if the largest ball in a part would have a smaller diameter than this.
-    double least_width;
-    // And if the extent of a part along x, y or z would be more than so many times the diameter of that
-    // ball; 0 or infinity: no limit.
-    double largest_aspect;
-    // More blocks than this are an error; 0: a million.
-    uint64_t most_blocks;
-    // How many threads cut, the calling one among them; 0: one. The blocks are the same for any number.
-    uint64_t threads;
-} pp_slice_settings;
-
-// Called before the first joint and again after every few, in the calling thread, with the numbers of
-// joints that have cut and of blocks that there are. Returns 0 to go on; anything else ends the cuts of
-// joints, and what was cut is kept. No exception and no longjmp may leave it.
-typedef int32_t (*pp_rock_progress)(void *context, uint64_t joints, uint64_t blocks);
-
-// A rock mass in numbers.
-typedef struct pp_rock_summary {
-    // Blocks.
-    uint64_t blocks;
-    // Faces of all of them.
-    uint64_t faces;
-    // Corners of all faces.
-    uint64_t corners;
-    // Pairs of faces that lie on each other.
-    uint64_t partners;
-    // Joints that have cut: all, unless progress ended it.
-    uint64_t joints;
-    // Joints among them that met no block.
-    uint64_t missing;
-    // Cuts that were left out as a part would have been smaller than the settings allow, or as thin as
-    // rounding.
-    uint64_t too_small;
-    // Blocks that were left whole where the parts would not have closed, by rounding.
-    uint64_t unclosed;
-} pp_rock_summary;
-
-// A block: axes and origin of the domain.
-typedef struct pp_block {
-    // Volume.
-    double volume;
-    // Centroid.
-    double centroid[3];
-    // Inertia about the centroid for density 1: xx, yy, zz, xy, yz, zx, as in pp_mass_properties, with products
-    // as they stand in the matrix.
-    double inertia[6];
-    // Index of its first face; the others follow.
-    uint64_t first_face;
-    // How many faces it has.
-    uint64_t face_count;
-    // Blocks with the same number were one before regions cut it.
-    uint64_t parent;
-    // Index of the region that it lies in; -1: none.
-    int64_t region;
-} pp_block;
-
-// A face of a block.
-typedef struct pp_block_face {
-    // PP_FACE_OF_DOMAIN, PP_FACE_OF_JOINT or PP_FACE_OF_REGION.
-    uint32_t of;
-    // Index of the region, else 0.
-    uint32_t region;
-    // Index of the plane of the domain, of the joint, or of the plane of the region.
-    uint64_t index;
-    // Unit outward normal and offset: the block lies where n.x <= d.
-    double plane[4];
-    // Area.
-    double area;
-    // The part of it that lies in the true extent of its joint, a disc or polygon; all of it where the joint
-    // has no end, 0 on other planes.
-    double jointed_area;
-    // Index of its first corner; the others follow, counter-clockwise from outside.
-    uint64_t first_corner;
-    // How many corners it has.
-    uint64_t corner_count;
-    // Index of its block.
-    uint64_t block;
-} pp_block_face;
-
-// Two faces that lie on each other.
-typedef struct pp_face_partners {
-    // Their indices.
-    uint64_t faces[2];
-    // Area that they share; those of all partners of a face sum to its own.
-    double area;
-} pp_face_partners;
-
-// Joints of about one orientation at about one spacing. Axes: x east, y north, z up.
-typedef struct pp_joint_set {
-    // Mean dip, degrees, 0 to 90.
-    double dip;
-    // Mean dip direction, degrees, clockwise from north.
-    double dip_direction;
-    // Mean spacing along the mean normal, length.
-    double spacing;
-    // Concentration of the normals in Fisher's distribution; infinite: none scatters.
-    double fisher;
-    // Radius of joints that are discs, length; infinite for joints without end.
-    double radius;
-    // Seed of what is drawn at random: the same one gives the same joints.
-    uint64_t seed;
-    // 1: spacings are drawn from an exponential distribution; 0: all are the same. Without a meaning for
-    // discs.
-    uint32_t exponential;
-    // Always 0.
-    uint32_t reserved;
-} pp_joint_set;
-
 // The call did what it says; its outputs are written.
 #define PP_OK 0
 
@@ -1080,12 +860,6 @@ typedef struct pp_joint_set {
 // The particle reaches less than 1e-30 or more than 1e30 from its centre.
 #define PP_BAD_SIZE 28
 
-// Nothing can be packed with these values; the message names the one at fault.
-#define PP_BAD_PACKING 30
-
-// No rock mass can be cut with these values; the message names the one at fault.
-#define PP_BAD_ROCK 31
-
 // Limit analysis has no answer for this scene; the message says why.
 #define PP_BAD_EQUILIBRIUM 32
 
@@ -1152,7 +926,7 @@ pp_status pp_contact_detect_batch(const struct pp_particle *const *particles,
 // are left out.
 // rounding: the rounding radius r over the size, in (0, 0.5). The size is the diameter of the largest ball
 // between the planes. k: sphericity, in [0, 1). shadow: R over the size, or 0 for the distance from the
-// centroid to the farthest corner. pp_particle_from_polyhedron takes lengths.
+// centroid to the farthest corner.
 // out: receives the particle; release it with pp_particle_free.
 // built: receives how it stands in the given frame, and its mass properties (may be NULL).
 // message: receives, on failure, a sentence that names the plane or value (may be NULL).
@@ -1188,27 +962,6 @@ pp_status pp_particle_from_points(const double *points,
                                   struct pp_built *built,
                                   char *message,
                                   size_t message_size);
-
-// Builds a particle of the size of a round form, about its centroid, which is near the origin.
-//
-// form: PP_ROUND_CYLINDER or another of these constants. sizes: as they say, lengths; five are read.
-// planes: sides of a cylinder or cone, at most so many planes of a superquadric; 0 for 48. r: rounding radius,
-// length, or 0 for what keeps the size. k and shadow_radius: as of pp_particle_from_polyhedron. Ellipsoids and
-// capsules take none of these four.
-// All else as pp_particle_from_faces.
-// Errors: PP_NULL_POINTER, PP_BAD_INDEX (form), PP_UNBOUNDED (a size or number out of range: the message
-// says which), and those of pp_particle_new.
-// Pointers: sizes points to 5 doubles, out to one pointer, built to one struct, message to message_size bytes.
-pp_status pp_particle_round(uint32_t form,
-                            const double *sizes,
-                            size_t planes,
-                            double r,
-                            double k,
-                            double shadow_radius,
-                            struct pp_particle **out,
-                            struct pp_built *built,
-                            char *message,
-                            size_t message_size);
 
 // Fills settings with the defaults.
 //
@@ -1436,28 +1189,6 @@ pp_status pp_flat_contact_area(const struct pp_particle *a,
                                const struct pp_flat_contact *contact,
                                double relative_tolerance,
                                double *area);
-
-// Fills a box or an upright cylinder with bodies of random orientation that do not overlap, as
-// pp_contact_detect decides.
-//
-// shapes: shape_count particles, each as likely as the others. sizes: size_count rows of a size and a
-// share, see struct pp_packing; a size is the diameter of a ball of the body's volume. May be NULL when
-// size_count is 0: shapes as they are.
-// placed: receives the bodies; see pp_placed. The packing ends with the number asked for, when placed ends
-// it, or when no further body finds a place: then fewer have been handed over.
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Pointers: shapes points to shape_count particles, sizes to 2*size_count doubles, message to message_size
-// bytes; placed is a function.
-// Errors: PP_NULL_POINTER, PP_BAD_PACKING, PP_BAD_INDEX (a count that no memory could hold).
-pp_status pp_pack(const struct pp_particle *const *shapes,
-                  size_t shape_count,
-                  const double *sizes,
-                  size_t size_count,
-                  const struct pp_packing *how,
-                  pp_placed placed,
-                  void *context,
-                  char *message,
-                  size_t message_size);
 
 // Creates a particle from count planes.
 //
@@ -1847,324 +1578,6 @@ pp_status pp_particle_outline_2d(const struct pp_particle_2d *particle,
                                  double *points,
                                  size_t capacity,
                                  size_t *count);
-
-// The body between planes: count rows of a, b, c, h, (a, b, c) of any length; inside is a x + b y + c z <= h.
-//
-// Planes that make no face of their own are left out: a face is part of a larger one if it lies within 1e-6
-// of the extent of the body of the plane of that one.
-// out: receives the body; release it with pp_polyhedron_free.
-// message: receives, on failure, a sentence that names the plane or value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_PLANE_ZERO_NORMAL (also of a plane whose numbers are not finite),
-// PP_UNBOUNDED (the planes enclose no volume), PP_TOO_MANY_PLANES.
-// Pointers: planes points to 4*count doubles, out to one pointer, message to message_size bytes.
-pp_status pp_polyhedron_from_faces(const double *planes,
-                                   size_t count,
-                                   struct pp_polyhedron **out,
-                                   char *message,
-                                   size_t message_size);
-
-// The convex hull of points: count rows of x, y, z, in any order; those inside the hull do not matter.
-//
-// known: the length to which the points are known, 0 for all digits. Triangles that lie that close to the plane
-// of a larger one, or within 1e-6 of the extent, are one face with it.
-// Errors: PP_NULL_POINTER, PP_BAD_POINT, PP_BAD_SETTING (known is negative or not finite), PP_UNBOUNDED (fewer
-// than four points, or all in one plane), PP_TOO_MANY_PLANES. All else as pp_polyhedron_from_faces.
-// Pointers: points points to 3*count doubles, out to one pointer, message to message_size bytes.
-pp_status pp_polyhedron_from_points(const double *points,
-                                    size_t count,
-                                    double known,
-                                    struct pp_polyhedron **out,
-                                    char *message,
-                                    size_t message_size);
-
-// The body within a closed convex surface: triangles of three numbers of points each, from 0, in any sense of
-// rotation.
-//
-// Errors: those of pp_polyhedron_from_points, whose points and known are the same; PP_BAD_POINT also where a
-// triangle names a point that is not there; PP_UNBOUNDED also of a surface that is open, not convex or crosses
-// itself: the message says where.
-// Pointers: points points to 3*count doubles, triangles to 3*triangle_count integers, out to one pointer,
-// message to message_size bytes.
-pp_status pp_polyhedron_from_surface(const double *points,
-                                     size_t count,
-                                     const uint32_t *triangles,
-                                     size_t triangle_count,
-                                     double known,
-                                     struct pp_polyhedron **out,
-                                     char *message,
-                                     size_t message_size);
-
-// A regular prism, frustum or pyramid along z from -height/2 to height/2, the first side towards x.
-//
-// radius, top_radius: of the circles within its lower and upper end; 0 above makes a pyramid.
-// Errors: PP_NULL_POINTER, PP_UNBOUNDED (sides or lengths out of range: the message says which). All else as
-// pp_polyhedron_from_faces.
-// Pointers: out points to one pointer, message to message_size bytes.
-pp_status pp_polyhedron_prism(size_t sides,
-                              double radius,
-                              double top_radius,
-                              double height,
-                              struct pp_polyhedron **out,
-                              char *message,
-                              size_t message_size);
-
-// The regular solid of 4, 6, 8, 12 or 20 faces with this length of edges, about the origin.
-//
-// Errors: PP_NULL_POINTER, PP_UNBOUNDED (another number of faces, or an edge that is not positive and finite).
-// All else as pp_polyhedron_from_faces.
-// Pointers: out points to one pointer, message to message_size bytes.
-pp_status pp_polyhedron_regular_solid(size_t faces,
-                                      double edge,
-                                      struct pp_polyhedron **out,
-                                      char *message,
-                                      size_t message_size);
-
-// Releases a polyhedron; NULL is allowed and does nothing.
-// Pointers: polyhedron is NULL or came from a pp_polyhedron function and was not released yet.
-void pp_polyhedron_free(struct pp_polyhedron *polyhedron);
-
-// Planes of the faces: rows of a, b, c, h, unit normals; half-spaces in the order given, other faces by
-// falling area.
-//
-// planes: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
-// faces, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-// Pointers: planes is valid for writing 4*capacity doubles.
-pp_status pp_polyhedron_faces(const struct pp_polyhedron *polyhedron,
-                              double *planes,
-                              size_t capacity,
-                              size_t *count);
-
-// Corners: rows of x, y, z. Buffer and count as of pp_polyhedron_faces.
-//
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-// Pointers: corners is valid for writing 3*capacity doubles.
-pp_status pp_polyhedron_corners(const struct pp_polyhedron *polyhedron,
-                                double *corners,
-                                size_t capacity,
-                                size_t *count);
-
-// The surface as triangles: rows of three numbers of corners, from 0, counter-clockwise from outside. Those of
-// one face may be several. Buffer and count as of pp_polyhedron_faces.
-//
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-// Pointers: triangles is valid for writing 3*capacity integers.
-pp_status pp_polyhedron_triangles(const struct pp_polyhedron *polyhedron,
-                                  uint32_t *triangles,
-                                  size_t capacity,
-                                  size_t *count);
-
-// Of the sharp body: volume and centroid, and the inertia about its centroid, axes of its frame; the error is
-// 0. size: receives the diameter of the largest ball that fits inside, length (may be NULL).
-//
-// Errors: PP_NULL_POINTER, PP_UNBOUNDED (rounding leaves no ball).
-// Pointers: properties and size are valid for writing one each.
-pp_status pp_polyhedron_properties(const struct pp_polyhedron *polyhedron,
-                                   struct pp_mass_properties *properties,
-                                   double *size);
-
-// Rounds a polyhedron: a particle whose faces are where its faces are, about its centroid and along its
-// principal axes.
-//
-// r: rounding radius, length, below half the size that pp_polyhedron_properties has. k: sphericity, in [0, 1).
-// shadow_radius: R, length, or 0 for the distance from the centroid to the farthest corner.
-// tolerance: of volume, centroid and inertia, relative, 1e-12 to 1; 0 for 1e-6, or 1e-4 of more than 30 planes.
-// out: receives the particle; release it with pp_particle_free.
-// built: receives how it stands in the frame of the polyhedron, and its mass properties (may be NULL).
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_SETTING (tolerance), and those of pp_particle_new.
-// Pointers: out points to one pointer, built to one struct, message to message_size bytes.
-pp_status pp_particle_from_polyhedron(const struct pp_polyhedron *polyhedron,
-                                      double r,
-                                      double k,
-                                      double shadow_radius,
-                                      double tolerance,
-                                      struct pp_particle **out,
-                                      struct pp_built *built,
-                                      char *message,
-                                      size_t message_size);
-
-// A particle of at most so many planes that comes as near to a polyhedron of many faces as it can, and with a
-// given volume: for scans. About its centroid and along its principal axes.
-//
-// planes: from 4 to 1000. volume: length^3, or 0 for that of the polyhedron. r: 0 for what comes nearest. All
-// else as pp_particle_from_polyhedron.
-// Errors: PP_NULL_POINTER, PP_BAD_SETTING (tolerance), PP_UNBOUNDED (planes, volume), and those of
-// pp_particle_new.
-// Pointers: out points to one pointer, built to one struct, message to message_size bytes.
-pp_status pp_particle_fitted(const struct pp_polyhedron *polyhedron,
-                             size_t planes,
-                             double volume,
-                             double r,
-                             double k,
-                             double shadow_radius,
-                             double tolerance,
-                             struct pp_particle **out,
-                             struct pp_built *built,
-                             char *message,
-                             size_t message_size);
-
-// Whether triangles, three numbers of points each, from 0, are a closed surface: each edge joins two of them.
-//
-// message: receives, of one that is not, a sentence that says where (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_POINT (a triangle names a point that is not there), PP_UNBOUNDED (it is not
-// closed).
-// Pointers: points points to 3*count doubles, triangles to 3*triangle_count integers, message to message_size
-// bytes.
-pp_status pp_surface_is_closed(const double *points,
-                               size_t count,
-                               const uint32_t *triangles,
-                               size_t triangle_count,
-                               char *message,
-                               size_t message_size);
-
-// Principal axes of a matrix of inertia, axis i the one nearest to axis i of its frame.
-//
-// Where moments are equal, and any axes of a plane or of space are principal, those nearest to the frame's own
-// are taken. inertia: xx, yy, zz, xy, yz, zx, as in pp_mass_properties. orientation: receives the quaternion
-// (w, x, y, z), w >= 0, from the principal axes to the frame.
-// Errors: PP_NULL_POINTER, PP_BAD_POINT (a number that is not finite).
-// Pointers: inertia points to 6 doubles, orientation to 4.
-pp_status pp_principal_axes(const double *inertia,
-                            double *orientation);
-
-// Cuts a convex domain by joints, one after the other: each cuts the blocks that it meets in two, a disc
-// or polygon all of a block that it reaches. Regions (a tunnel, a bench, what a domain that is not convex
-// leaves out) then cut the blocks that they meet into what lies in the region and the parts beside it,
-// which keep their parent.
-//
-// planes: plane_count rows of a, b, c, d: the domain is where a x + b y + c z <= d for all of them.
-// joints: joint_count joints; may be NULL when there are none.
-// outline_counts: NULL, or for each joint how many corners it has as a polygon, 0 for a plane or disc;
-// outlines: the corners of all of them, rows of x, y, z in their order.
-// region_planes: the planes of all regions, rows as of the domain; region_counts: how many belong to each
-// of region_count regions.
-// settings: NULL for none. progress: NULL, or see pp_rock_progress.
-// out: receives the rock mass; release it with pp_rock_free.
-// message: receives, on failure, a sentence that names the plane, joint or value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_INDEX (a count that no memory could hold).
-// Pointers: planes points to 4*plane_count doubles, outlines to 3 doubles for each of the sum of
-// outline_counts, region_planes to 4 for each of that of region_counts, message to message_size bytes.
-pp_status pp_rock_new(const double *planes,
-                      size_t plane_count,
-                      const struct pp_joint *joints,
-                      size_t joint_count,
-                      const double *outlines,
-                      const size_t *outline_counts,
-                      const double *region_planes,
-                      const size_t *region_counts,
-                      size_t region_count,
-                      const struct pp_slice_settings *settings,
-                      pp_rock_progress progress,
-                      void *context,
-                      struct pp_rock **out,
-                      char *message,
-                      size_t message_size);
-
-// Releases a rock mass; NULL is allowed and does nothing.
-// Pointers: rock is NULL or came from pp_rock_new and was not released yet.
-void pp_rock_free(struct pp_rock *rock);
-
-// How much there is to read, and what was left out.
-//
-// Errors: PP_NULL_POINTER.
-pp_status pp_rock_get_summary(const struct pp_rock *rock, struct pp_rock_summary *summary);
-
-// All blocks.
-//
-// blocks: room for capacity of them; may be NULL when capacity is 0. count: receives their number, also
-// when the buffer is too small.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-pp_status pp_rock_blocks(const struct pp_rock *rock,
-                         struct pp_block *blocks,
-                         size_t capacity,
-                         size_t *count);
-
-// All faces, those of the first block first.
-//
-// faces: room for capacity of them; may be NULL when capacity is 0. count: receives their number, also
-// when the buffer is too small.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-pp_status pp_rock_faces(const struct pp_rock *rock,
-                        struct pp_block_face *faces,
-                        size_t capacity,
-                        size_t *count);
-
-// The corners of all faces: rows of x, y, z.
-//
-// corners: room for capacity rows; may be NULL when capacity is 0. count: receives their number, also when
-// the buffer is too small.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-// Pointers: corners is valid for writing 3*capacity doubles.
-pp_status pp_rock_corners(const struct pp_rock *rock,
-                          double *corners,
-                          size_t capacity,
-                          size_t *count);
-
-// All pairs of faces that lie on each other.
-//
-// partners: room for capacity of them; may be NULL when capacity is 0. count: receives their number, also
-// when the buffer is too small.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-pp_status pp_rock_partners(const struct pp_rock *rock,
-                           struct pp_face_partners *partners,
-                           size_t capacity,
-                           size_t *count);
-
-// The joints that met no block, by their indices.
-//
-// joints: room for capacity numbers; may be NULL when capacity is 0. count: receives how many there are,
-// also when the buffer is too small.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-pp_status pp_rock_missing_joints(const struct pp_rock *rock,
-                                 uint64_t *joints,
-                                 size_t capacity,
-                                 size_t *count);
-
-// The joint through a point that descends most, by the angle dip in degrees, towards the azimuth
-// dip_direction in degrees, clockwise from north.
-//
-// point: x east, y north, z up. radius: as of struct pp_joint. out: receives the joint, with the unit
-// normal that points upwards.
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK.
-// Pointers: point points to 3 doubles, message to message_size bytes.
-pp_status pp_joint_from_dip(const double *point,
-                            double dip,
-                            double dip_direction,
-                            double radius,
-                            struct pp_joint *out,
-                            char *message,
-                            size_t message_size);
-
-// The joint that is a convex polygon, by its corners in their order; pp_rock_new is given the corners again.
-//
-// corners: count rows of x, y, z. out: receives the joint, with a unit normal.
-// message: receives, on failure, a sentence (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK (corners off one plane, on one line, or not of a convex polygon).
-// Pointers: corners points to 3*count doubles, message to message_size bytes.
-pp_status pp_joint_from_corners(const double *corners,
-                                size_t count,
-                                struct pp_joint *out,
-                                char *message,
-                                size_t message_size);
-
-// The joints of a set within reach of a point, both lengths: those that cross the line through it along
-// the mean normal, of equal spacings one at the point itself; discs that reach into the ball.
-//
-// joints: room for capacity joints; may be NULL when capacity is 0. count: receives their number, also
-// when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
-// message: receives, on failure, a sentence that names the value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_ROCK, PP_BAD_SETTING (exponential), PP_BUFFER_TOO_SMALL.
-// Pointers: centre points to 3 doubles, message to message_size bytes.
-pp_status pp_joint_set_joints(const struct pp_joint_set *set,
-                              const double *centre,
-                              double reach,
-                              struct pp_joint *joints,
-                              size_t capacity,
-                              size_t *count,
-                              char *message,
-                              size_t message_size);
 
 // f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
 // be NULL).

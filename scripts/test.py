@@ -28,6 +28,7 @@ from checks import jobs
 TARGET = Path(os.path.abspath(os.environ.get("CARGO_TARGET_DIR") or TOP / "target"))
 LOGS = TARGET / "test-logs"
 GUIDE = TARGET / "guide"
+CORE = TARGET / "maturin" / "release" / "lib_core.so"
 # A stage that takes longer hangs.
 MINUTES = 30
 # Of what one stage says of its failures.
@@ -66,9 +67,11 @@ def suite(name, title, *commands, **more):
     return Stage(name, title, list(commands), **more)
 
 
-def glue(library):
+def glue(profile):
     """How the plugin is built. (make glue would ask cargo for the library, and wait while cargo builds tests.)"""
-    return (("cmake", "-S", "yade-glue", "-B", "yade-glue/build", f"-DPP_LIBRARY={library}",
+    return (("cmake", "-S", "yade-glue", "-B", "yade-glue/build",
+             f"-DPP_LIBRARY={TARGET / profile / 'libpotential_particles.so'}",
+             f"-DPP_CORE={TARGET / 'maturin' / profile / 'lib_core.so'}",
              f"-DPP_WERROR={os.environ.get('WERROR') or 0}"), ("cmake", "--build", "yade-glue/build", "--parallel",
                                                                str(jobs())))
 
@@ -78,12 +81,13 @@ STAGES = [
     check("lint", "Formatting and warnings of Rust", (*MAKE, "lint"),
           plans=("test", "all") if os.environ.get("WERROR") == "1" else ()),
     check("library", "Library, release build", ("scripts/library.sh", )),
+    check("core", "Module of Python, release build", ("scripts/core.sh", )),
     suite("rust", "Rust tests, with the C header", (*CARGO_TEST, "--lib", "--tests"), (*CARGO_TEST, "--doc"),
           needs=("library", )),
-    check("yade-build", "YADE plugin, compared with this YADE", *glue(TARGET / "release" / "libpotential_particles.so"),
-          needs=("library", )),
+    check("yade-build", "YADE plugin, compared with this YADE", *glue("release"),
+          needs=("library", "core")),
     suite("yade", "YADE scenes", ("tests/yade/run.py", ), needs=("yade-build", )),
-    check("lammps-build", "LAMMPS and its plugin", ("scripts/lammps_setup.sh", ), needs=("library", )),
+    check("lammps-build", "LAMMPS and its plugin", ("scripts/lammps_setup.sh", ), needs=("library", "core")),
     suite("examples", "Examples and studies, short", ("tests/examples/run.py", ), needs=("yade-build", )),
     suite("lammps", "LAMMPS scenes", ("tests/lammps/run.py", ), needs=("lammps-build", )),
     suite("ranks", "YADE on 1, 2 and 3 ranks", ("tests/mpi/run.py", ), needs=("yade-build", )),
@@ -91,7 +95,8 @@ STAGES = [
           ("env", "QUICK=1", f"OUTPUT={TARGET / 'wheel'}", "scripts/wheel.sh"), needs=("yade-build", ),
           after=("rust", )),
     suite("blocks", "Code blocks of the guide", ("tests/guide/run.py", ), needs=("yade-build", )),
-    check("install", "Library installed, moved, linked and removed", ("env", "PROFILE=dev", "scripts/try_install.sh"),
+    check("install", "Library installed, moved, linked and removed", ("env", "PROFILE=dev", f"CORE={CORE}", "scripts/try_install.sh"),
+          needs=("core", ),
           after=("library", )),
     suite("c", "C harness and examples, header as C++", (*MAKE, "-C", "tests/c", "run", "complete", "cxx", "examples"),
           needs=("library", )),
@@ -145,8 +150,9 @@ CHECK = [
                                                     "--tests", "--", "--skip", "stress::", "--skip", "fuzz_replay::"),
           needs=("library", )),
     suite("c", "C harness", (*MAKE, "-C", "tests/c", "run", "PROFILE=quick"), needs=("library", )),
-    check("yade-build", "YADE plugin, compared with this YADE", *glue(TARGET / "quick" / "libpotential_particles.so"),
-          needs=("library", )),
+    check("core", "Module of Python, quick build", ("env", "PROFILE=quick", "scripts/core.sh")),
+    check("yade-build", "YADE plugin, compared with this YADE", *glue("quick"),
+          needs=("library", "core")),
     suite("yade", "YADE: particles with particles, spheres, boxes, walls and facets", ("tests/yade/run.py", "mixed"),
           needs=("yade-build", )),
 ]
@@ -295,7 +301,7 @@ def chosen(plan, names):
     if plan == "check":
         lacking = {
             name
-            for name, program in (("format", "cargo-fmt"), ("yade", "yade"), ("yade-build", "yade"))
+            for name, program in (("format", "cargo-fmt"), ("core", "yade"), ("yade", "yade"), ("yade-build", "yade"))
             if not shutil.which(program)
         }
         if "yade" in lacking:

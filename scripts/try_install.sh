@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs the library from a checkout whose path has a space and an umlaut, moves what was installed, builds an example
-# with it by pkg-config, by pkg-config statically, and by CMake with both targets, and uninstalls it. Needs cargo, a C
-# compiler, pkg-config and CMake; CARGO_TARGET_DIR may hold an earlier build.
+# with it by pkg-config, by pkg-config statically, and by CMake with both targets, imports it in Python, and uninstalls it. Needs cargo, a C
+# compiler, pkg-config, CMake and numpy; CARGO_TARGET_DIR may hold an earlier build.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 CARGO_TARGET_DIR=$(realpath -m "${CARGO_TARGET_DIR:-target}")
@@ -24,6 +24,11 @@ try "installed from and to a path with spaces" make -C "$checkout" install PREFI
 moved="$work/möved to"
 mv "$prefix" "$moved"
 export PKG_CONFIG_PATH="$moved/lib/pkgconfig" LD_LIBRARY_PATH="$moved/lib"
+
+by_python() {
+    PYTHONPATH=$moved/lib/python3/dist-packages /usr/bin/python3 -c 'import potential_particles as pp; assert pp.Particle.sphere(2).R == 2 and pp.__file__.startswith("'"$moved"'")'
+}
+try "Python" by_python
 
 compiled() {
     local flags=$1 out=$2

@@ -21,7 +21,7 @@ PLACES = [
     ("python/Cargo.toml", r'^version = "', WHOLE),
     *((f"{folder}Cargo.lock", LOCKED, WHOLE) for folder in ("", "python/", "fuzz/", "benches/peers/rust/")),
     ("python/potential_particles/__init__.py", r'^__version__ = "', WHOLE),
-    ("yade-glue/python/potential_particles/__init__.py", r'^__version__ = "', WHOLE),
+    ("yade-glue/python/potential_particles/yade.py", r'^_PLUGIN = "', WHOLE),
     ("src/capi/abi.rs", r"^pub const PP_VERSION_MAJOR: u32 = ", "{0}"),
     ("src/capi/abi.rs", r"^pub const PP_VERSION_MINOR: u32 = ", "{1}"),
     ("src/capi/abi.rs", r"^pub const PP_VERSION_PATCH: u32 = ", "{2}"),
@@ -38,7 +38,6 @@ PLACES = [
     ("src/capi/abi.rs", r"^pub const PP_ABI_VERSION: u32 = ", ABI),
     ("include/potential_particles.h", r"^#define PP_ABI_VERSION ", ABI),
     ("packaging/conda/recipe.yaml", r"^  abi: ", ABI),
-    ("lammps-glue/python/potential_particles_lammps/library.py", r"^ABI_VERSION = ", ABI),
     *((path, PACKAGE, ABI) for path in ("debian/control", ".gitignore", "docs/install.md", "scripts/try_packages.sh")),
 ]
 

@@ -33,8 +33,8 @@ if ! "$TOOLS/bin/maturin" --version >/dev/null 2>&1; then
     from_pypi "$TOOLS" 'maturin>=1.7,<2'
 fi
 if [ "${QUICK:-0}" = 1 ]; then
-    # To be tried, not to be fast.
-    how=(--profile quick)
+    # As scripts/core.sh builds it.
+    how=(--release)
 else
     "$TOOLS/bin/python" -c 'import ziglang' 2>/dev/null || from_pypi "$TOOLS" ziglang
     how=(--release --zig --compatibility manylinux2014)

@@ -1,1 +1,1 @@
-../yade-glue/python/potential_particles/files.py
+../python/potential_particles/files.py

@@ -9,33 +9,103 @@ A Particle is made once for each shape; a body is a particle at a Pose. detect()
 Batch those of all pairs of a step on numpy arrays. `builders` makes particles of points, surfaces and names of solids,
 `slicing` cuts rock into blocks, `planar` has particles of the plane. Lengths are in the caller's unit, quaternions (w,
 x, y, z), vectors in world axes unless said otherwise.
+
+In YADE, with the plugin, the names of `potential_particles.yade` stand here, too.
 """
-import os
+import importlib.util
 import pkgutil
 import sys
 
-from ._api import *  # noqa: F401, F403
-from ._api import __all__
-
-__all__ = list(__all__)
 __version__ = "0.2.0"
+# Parts for YADE may be installed elsewhere than a wheel.
+__path__ = pkgutil.extend_path(__path__, __name__)
+
+from . import builders, equilibrium, planar, slicing  # noqa: E402
+from ._core import (  # noqa: E402
+    FAILED,
+    OVERLAPPING,
+    SEPARATED,
+    Batch,
+    ClosestPoint,
+    Contact,
+    ContactDerivatives,
+    ContactError,
+    ContactGradient,
+    FlatContact,
+    MassProperties,
+    PairState,
+    Particle,
+    Patch,
+    PatchDerivatives,
+    Pose,
+    Settings,
+    SurfaceMesh,
+    Triangle,
+    Wall,
+    boundary_derivatives,
+    boundary_gradient,
+    closest_point,
+    contact_area,
+    contact_derivatives,
+    contact_gradient,
+    contact_type,
+    contact_with_plane,
+    contact_with_triangle,
+    detect,
+    detect_batch,
+    patch_derivatives,
+    patch_of_contact,
+    patch_on_plane,
+    patch_on_triangle,
+    pose_type,
+)
+
+__all__ = [
+    "FAILED",
+    "OVERLAPPING",
+    "SEPARATED",
+    "Batch",
+    "ClosestPoint",
+    "Contact",
+    "ContactDerivatives",
+    "ContactError",
+    "ContactGradient",
+    "FlatContact",
+    "MassProperties",
+    "PairState",
+    "Particle",
+    "Patch",
+    "PatchDerivatives",
+    "Pose",
+    "Settings",
+    "SurfaceMesh",
+    "Triangle",
+    "Wall",
+    "boundary_derivatives",
+    "boundary_gradient",
+    "builders",
+    "closest_point",
+    "contact_area",
+    "contact_derivatives",
+    "contact_gradient",
+    "contact_type",
+    "contact_with_plane",
+    "contact_with_triangle",
+    "detect",
+    "detect_batch",
+    "equilibrium",
+    "patch_derivatives",
+    "patch_of_contact",
+    "patch_on_plane",
+    "patch_on_triangle",
+    "planar",
+    "pose_type",
+    "slicing",
+]
 
 
-def _plugin():
-    """The folder of the package of the same name that extends YADE, if there is one on the path."""
-    found = pkgutil.extend_path(list(__path__), __name__)
-    return next((folder for folder in found if os.path.isfile(os.path.join(folder, "outside.py"))), None)
+if ("yade" in sys.modules or importlib.util.find_spec("yade")) and importlib.util.find_spec(".yade", __name__):
+    from .yade import *  # noqa: F401, F403
+    from .yade import __all__ as _of_yade, _glue  # noqa: F401
 
-
-def _extend():
-    """In YADE, with this package first on the path: the plugin's names and classes, too, by its own first file."""
-    folder = _plugin() if "yade" in sys.modules else None
-    if folder is not None:
-        __path__.insert(0, folder)
-        file = os.path.join(folder, "__init__.py")
-        with open(file, encoding="utf-8") as opened:
-            code = compile(opened.read(), file, "exec")
-        exec(code, globals())
-
-
-_extend()
+    __all__ += _of_yade

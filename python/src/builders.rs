@@ -19,7 +19,7 @@ pub struct PyShape {
 }
 
 impl PyShape {
-    fn of(py: Python<'_>, shape: Shape) -> PyResult<Self> {
+    pub fn of(py: Python<'_>, shape: Shape) -> PyResult<Self> {
         let particle = Py::new(py, PyParticle(shape.particle.clone()))?;
         Ok(Self { shape, particle })
     }
@@ -175,7 +175,7 @@ fn surface(
 }
 
 /// Python's negative numbers would be an OverflowError.
-fn count(value: i64, name: &str) -> PyResult<usize> {
+pub fn count(value: i64, name: &str) -> PyResult<usize> {
     usize::try_from(value).map_err(|_| refused(format!("{name}={value} must not be negative")))
 }
 

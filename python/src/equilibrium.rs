@@ -11,6 +11,7 @@ use potential_particles::nalgebra::{Matrix3, RowVector3, Vector3};
 use potential_particles::rock::{FaceOf, Interface, RockMass};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
+use std::cell::RefCell;
 use std::collections::HashSet;
 
 /// Rigid bodies and their contacts, filled by add_body and add_contact or from a rock mass.
@@ -210,16 +211,16 @@ impl PyScene {
             self.0.press(|_| stress);
             return Ok(());
         }
-        let mut failed = None;
+        let failed = RefCell::new(None);
         let mut pressed = self.0.clone();
         pressed.press(|at| {
             let found = stress.call1((to_vector(stress.py(), at.as_slice()),)).and_then(|given| of(&given));
             found.unwrap_or_else(|error| {
-                failed.get_or_insert(error);
+                failed.borrow_mut().get_or_insert(error);
                 Matrix3::zeros()
             })
         });
-        match failed {
+        match failed.into_inner() {
             Some(error) => Err(error),
             None => {
                 self.0 = pressed;

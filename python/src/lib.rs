@@ -17,6 +17,8 @@
 //! | `derivative` | derivatives of contacts and patches |
 //! | `batch` | the pairs of a step |
 //! | `builders` | shapes |
+//! | `polyhedron` | sharp bodies, and shapes of them by lengths |
+//! | `packing` | packings |
 //! | `slicing` | rock masses |
 //! | `equilibrium` | whether a scene of blocks stands |
 //! | `planar` | particles of the plane |
@@ -29,10 +31,12 @@ mod contact;
 mod derivative;
 mod equilibrium;
 mod errors;
+mod packing;
 mod particle;
 mod patch;
 mod pickles;
 mod planar;
+mod polyhedron;
 mod pose;
 mod records;
 mod settings;
@@ -42,6 +46,7 @@ use pyo3::prelude::*;
 
 #[pymodule(gil_used = true)]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add("__version__", env!("CARGO_PKG_VERSION"))?;
     errors::add(module)?;
     pickles::add(module)?;
     records::add(module)?;
@@ -54,6 +59,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     derivative::add(module)?;
     batch::add(module)?;
     builders::add(module)?;
+    polyhedron::add(module)?;
+    packing::add(module)?;
     slicing::add(module)?;
     equilibrium::add(module)?;
     planar::add(module)

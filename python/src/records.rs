@@ -1,7 +1,7 @@
 //! Contacts and poses as records of structured arrays: the numpy types `contact_type` and `pose_type`, laid out as
 //! the library has them.
 
-use bytemuck::{Pod, Zeroable};
+use bytemuck::{NoUninit, Pod, Zeroable};
 use numpy::{PyArray1, PyArrayMethods, PyReadonlyArray1, PyReadwriteArray1};
 use potential_particles::{Contact, Row};
 use pyo3::prelude::*;
@@ -52,6 +52,13 @@ fn record_type(py: Python<'_>, fields: &[Row], size: usize) -> PyResult<Py<PyAny
     layout.set_item("offsets", PyList::new(py, fields.iter().map(|field| field.3))?)?;
     layout.set_item("itemsize", size)?;
     Ok(py.import("numpy")?.call_method1("dtype", (layout,))?.unbind())
+}
+
+/// Records as an array (n,) of the type that these fields make.
+pub fn structured<T: NoUninit>(py: Python<'_>, records: &[T], fields: &[Row]) -> PyResult<Py<PyAny>> {
+    let kind = record_type(py, fields, size_of::<T>())?;
+    let bytes = PyArray1::from_slice(py, bytemuck::cast_slice::<T, u8>(records));
+    Ok(bytes.call_method1("view", (kind,))?.unbind())
 }
 
 pub fn pose_type(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {

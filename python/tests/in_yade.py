@@ -11,10 +11,10 @@ def main():
     import potential_particles
     from potential_particles import builders, rock, shapes, slicing
     from yade import FrictMat, O
-    # Each name means what it means without YADE.
-    assert all(
-        getattr(potential_particles, name) is getattr(potential_particles._api, name)
-        for name in potential_particles._api.__all__)
+    # One package, whose names are those of one _core.
+    from potential_particles import _core, polyhedron, yade as host
+    assert potential_particles.Particle is _core.Particle and polyhedron.Polyhedron is _core._shapes.Polyhedron
+    assert potential_particles.body is host.body
     O.materials.append(FrictMat())
     places = (0, 0, 0), (0.1, 0.2, 0.45)
     O.bodies.append([potential_particles.body(shapes.cuboid((1, 1, 0.5)), position=place) for place in places])

@@ -254,6 +254,38 @@ class Builders(unittest.TestCase):
 
 
 class Rock(unittest.TestCase):
+    def test_arrays_are_the_blocks(self):
+        discs = slicing.joint_set(50, 120, 2.0, centre=(0, 0, 0), reach=9, radius=4.0, seed=3)
+        square = slicing.Joint.of_corners([(-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)])
+        level = slicing.Joint.of_normal((0, 0, 1), (0, 0, 2))
+        self.assertTrue(all(one.radius == 4.0 for one in discs))
+        np.testing.assert_allclose(np.abs(square.normal), (0, 0, 1))
+        told = []
+        mass = slicing.slice(BOX, [*discs, square, level], progress=lambda *counts: told.append(counts) or True)
+        blocks, faces, partners, corners = mass.arrays()
+        self.assertEqual((len(blocks), mass.joints), (len(mass.blocks), len(discs) + 2))
+        self.assertGreater(len(told), 0)
+        for row, block in zip(blocks, mass.blocks):
+            of = slice(int(row["first_face"]), int(row["first_face"] + row["face_count"]))
+            np.testing.assert_array_equal(faces["plane"][of], block.planes)
+            np.testing.assert_array_equal(faces["jointed_area"][of], block.jointed_areas)
+            places = [corners[int(one["first_corner"]):][:int(one["corner_count"])] for one in faces[of]]
+            self.assertTrue(all(np.array_equal(*pair) for pair in zip(places, block.polygons)))
+            sides = np.concatenate(places) - row["centroid"]
+            self.assertTrue((faces["plane"][of, :3] @ sides.T
+                             <= (faces["plane"][of, 3] - faces["plane"][of, :3] @ row["centroid"])[:, None] + 1e-9).all())
+        # What a face shares with its partners is all of it, but for those of the domain.
+        shared = np.zeros(len(faces))
+        for side in (0, 1):
+            np.add.at(shared, partners["faces"][:, side].astype(int), partners["area"])
+        np.testing.assert_allclose(shared, np.where(faces["of"] == 0, 0.0, faces["area"]), atol=1e-9)
+
+    def test_progress_ends_the_cuts(self):
+        joints = slicing.joint_set(30, 90, 0.2, centre=(0, 0, 0), reach=9)
+        self.assertEqual(slicing.slice(BOX, joints, progress=lambda *_: False).joints, 0)
+        with self.assertRaises(ZeroDivisionError):
+            slicing.slice(BOX, joints, progress=lambda *_: 1 / 0)
+
     def test_blocks_fill_the_domain(self):
         joints = (slicing.joint_set(30, 90, 1.5, centre=(0, 0, 0), reach=9, exponential=True)
                   + slicing.joint_set(80, 280, 2.0, centre=(0, 0, 0), reach=9, fisher=50, seed=1))

@@ -3,13 +3,9 @@
 use super::builder::pp_built;
 use super::derivative::{pp_derivatives, pp_shape_gradient};
 use super::equilibrium::{pp_equilibrium_result, pp_rigid_body, pp_rigid_contact};
-use super::packing::{pp_packing, pp_placement};
 use super::patch::{pp_patch, pp_patch_state};
 use super::patch_derivatives::pp_patch_derivatives;
 use super::planar::{pp_area_properties, pp_patch_2d, pp_pose_2d};
-use super::rock::pp_slice_settings;
-use super::rock_arrays::{pp_block, pp_block_face, pp_face_partners, pp_rock_summary};
-use super::rock_joints::{pp_joint, pp_joint_set};
 use super::types::*;
 use crate::answer::Row;
 use crate::{ClosestPoint, Contact, FlatContact, Settings};
@@ -58,12 +54,9 @@ macro_rules! sizes {
 }
 
 sizes! {
-    pp_pose, pp_settings, pp_contact, pp_closest, pp_mass_properties,
-    pp_pose_2d, pp_contact_2d, pp_closest_2d, pp_area_properties, pp_packing,
-    pp_placement, pp_flat_contact, pp_pair_state, pp_patch, pp_patch_point,
-    pp_patch_2d, pp_patch_point_2d, pp_patch_state, pp_joint, pp_joint_set,
-    pp_slice_settings, pp_rock_summary, pp_block, pp_block_face, pp_face_partners,
-    pp_derivatives, pp_contact_weights, pp_shape_gradient, pp_pose_gradient, pp_patch_derivatives,
+    pp_pose, pp_settings, pp_contact, pp_closest, pp_mass_properties, pp_pose_2d, pp_contact_2d, pp_closest_2d,
+    pp_area_properties, pp_flat_contact, pp_pair_state, pp_patch, pp_patch_point, pp_patch_2d, pp_patch_point_2d,
+    pp_patch_state, pp_derivatives, pp_contact_weights, pp_shape_gradient, pp_pose_gradient, pp_patch_derivatives,
     pp_built, pp_rigid_body, pp_rigid_contact, pp_equilibrium_result,
 }
 

@@ -4,7 +4,6 @@ use super::convert::{pose_in_plane, pose_in_space};
 use super::equilibrium::{pp_rigid_body, pp_rigid_contact};
 use super::particle::pp_particle;
 use super::planar::{pp_particle_2d, pp_pose_2d};
-use super::rock_joints::pp_joint;
 use super::status::*;
 use super::types::*;
 use crate::{Contact, ContactWeights, Feature, FlatContact, PairState, Particle, Pose, Settings, planar};
@@ -53,7 +52,6 @@ macro_rules! objects {
         })+
     };
 }
-pub(super) use objects;
 
 objects! {
     pp_particle => &'a Particle, |particle| Ok(&particle.0);
@@ -144,10 +142,8 @@ impl<'a, const N: usize> Argument<&'a [f64; N]> for *const f64 {
 /// What arrays are made of, as against rows of numbers.
 pub(super) trait Element {}
 impl<T> Element for *const T {}
-impl Element for usize {}
 impl Element for pp_pose {}
 impl Element for pp_pose_2d {}
-impl Element for pp_joint {}
 impl Element for pp_rigid_body {}
 impl Element for pp_rigid_contact {}
 

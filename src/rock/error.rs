@@ -32,14 +32,6 @@ pub enum RockError {
     /// Corners that make no joint, and what they must do.
     #[error("the corners of a joint must {0}")]
     NoPolygon(String),
-    /// The same of one of several joints.
-    #[error("the corners of joint {joint} must {must}")]
-    NoOutline {
-        /// Index of the joint.
-        joint: usize,
-        /// What its corners must do.
-        must: String,
-    },
     /// The planes of the domain enclose no volume.
     #[error("the domain is empty: no point lies inside of all its planes; normals have to point outwards")]
     Empty,

@@ -100,7 +100,7 @@ fn ln_gamma(x: f64) -> f64 {
 }
 
 /// A hull with fewer planes, and this volume.
-pub(crate) fn of_hull(
+pub fn of_hull(
     hull: &SharpBody,
     volume: f64,
     planes: usize,

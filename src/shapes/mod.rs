@@ -51,8 +51,8 @@ pub use solids::{cuboid, frustum, half_spaces, hull, known_hull, prism, regular_
 #[doc(hidden)]
 pub use solids::{sharp_hull, sharp_planes};
 // The sharp bodies of the C interface.
-#[cfg(feature = "capi")]
-pub(crate) use {
+#[doc(hidden)]
+pub use {
     fitting::of_hull,
     principal_frame::principal_orientation,
     sharp_body::SharpBody,

@@ -31,7 +31,7 @@ fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
 }
 
 /// The same, and the quaternion (w, x, y, z), w ≥ 0, from them to the frame.
-pub(crate) fn principal_orientation(inertia: &Matrix3<f64>) -> (Matrix3<f64>, [f64; 4]) {
+pub fn principal_orientation(inertia: &Matrix3<f64>) -> (Matrix3<f64>, [f64; 4]) {
     let axes = axes(inertia);
     let quaternion = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
     let sign = if quaternion.w < 0.0 { -1.0 } else { 1.0 };

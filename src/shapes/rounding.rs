@@ -173,7 +173,8 @@ impl Shape {
     }
 
     /// A sharp body, rounded. `tolerance`: of volume, centroid and inertia, relative; by default [`usual_tolerance`].
-    pub(crate) fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: Option<f64>) -> Result<Self, ShapeError> {
+    #[doc(hidden)]
+    pub fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: Option<f64>) -> Result<Self, ShapeError> {
         let size = body.size()?;
         let (r, k, shadow_radius) = rounding.lengths(size)?;
         if body.planes.len() > MOST_ROUNDED {

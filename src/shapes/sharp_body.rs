@@ -16,14 +16,18 @@ use nalgebra::{Matrix3, Vector3};
 const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 
 /// Planes, corners and centroid are about `origin`, so that their digits do not depend on how far away the body is.
-pub(crate) struct SharpBody {
+pub struct SharpBody {
+    /// Of the numbers below, in the given frame.
     pub origin: Vector3<f64>,
     /// Of its faces, unit normals: half-spaces in their order, those of points by falling area.
     pub planes: Vec<Plane>,
+    /// Its corners.
     pub corners: Vec<Vector3<f64>>,
     /// Its surface, three numbers of corners each, counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
+    /// Its volume.
     pub volume: f64,
+    /// The centroid of its volume.
     pub centroid: Vector3<f64>,
 }
 
@@ -108,7 +112,6 @@ impl SharpBody {
     }
 
     /// Moments and products of inertia about the centroid for density 1.
-    #[cfg_attr(not(feature = "capi"), expect(dead_code, reason = "for the C interface"))]
     pub fn inertia(&self) -> Matrix3<f64> {
         let at = |i: u32| self.corners[i as usize];
         volume::inertia(&self.centroid, self.triangles.iter().map(|triangle| triangle.map(at).into_iter()))

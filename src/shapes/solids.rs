@@ -116,7 +116,8 @@ pub fn frustum(
     rounded(&sharp_frustum(sides, radius, top_radius, height)?, rounding)
 }
 
-pub(crate) fn sharp_frustum(sides: usize, radius: f64, top_radius: f64, height: f64) -> Result<SharpBody, ShapeError> {
+/// As `frustum`, not rounded.
+pub fn sharp_frustum(sides: usize, radius: f64, top_radius: f64, height: f64) -> Result<SharpBody, ShapeError> {
     if !(3..=MAX_PLANES - 2).contains(&sides) {
         return Err(ShapeError::Sides(sides));
     }
@@ -138,7 +139,8 @@ pub fn regular_solid(faces: usize, edge: f64, rounding: &Rounding) -> Result<Sha
     rounded(&sharp_regular_solid(faces, edge)?, rounding)
 }
 
-pub(crate) fn sharp_regular_solid(faces: usize, edge: f64) -> Result<SharpBody, ShapeError> {
+/// As `regular_solid`, not rounded.
+pub fn sharp_regular_solid(faces: usize, edge: f64) -> Result<SharpBody, ShapeError> {
     let golden = 0.5 * (1.0 + 5f64.sqrt());
     let signs = [-1.0, 1.0];
     let cube: Vec<[f64; 3]> =

@@ -26,7 +26,7 @@ impl SharpBody {
 }
 
 /// Refuses triangles that leave edges open, or name points that are not there.
-pub(crate) fn refuse_open(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), ShapeError> {
+pub fn refuse_open(points: &[[f64; 3]], triangles: &[[u32; 3]]) -> Result<(), ShapeError> {
     let mut edges: HashMap<[u32; 2], usize> = HashMap::new();
     for (triangle, corners) in triangles.iter().enumerate() {
         if let Some(&point) = corners.iter().find(|&&point| point as usize >= points.len()) {

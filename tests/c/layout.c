@@ -11,12 +11,10 @@ static void sizes_are_those_of_the_library(void) {
     SIZE(pp_pose); SIZE(pp_settings); SIZE(pp_pair_state);
     SIZE(pp_contact); SIZE(pp_closest); SIZE(pp_mass_properties);
     SIZE(pp_area_properties); SIZE(pp_pose_2d); SIZE(pp_contact_2d);
-    SIZE(pp_closest_2d); SIZE(pp_flat_contact); SIZE(pp_packing);
-    SIZE(pp_placement); SIZE(pp_patch); SIZE(pp_patch_point);
+    SIZE(pp_closest_2d); SIZE(pp_flat_contact);
+    SIZE(pp_patch); SIZE(pp_patch_point);
     SIZE(pp_patch_2d); SIZE(pp_patch_point_2d); SIZE(pp_patch_state);
-    SIZE(pp_joint); SIZE(pp_joint_set); SIZE(pp_slice_settings);
-    SIZE(pp_rock_summary); SIZE(pp_block); SIZE(pp_block_face);
-    SIZE(pp_face_partners); SIZE(pp_derivatives); SIZE(pp_contact_weights);
+    SIZE(pp_derivatives); SIZE(pp_contact_weights);
     SIZE(pp_shape_gradient); SIZE(pp_pose_gradient); SIZE(pp_patch_derivatives);
     SIZE(pp_built); SIZE(pp_rigid_body); SIZE(pp_rigid_contact);
     SIZE(pp_equilibrium_result);
@@ -121,28 +119,6 @@ void test_layout(void) {
     CHECK(offsetof(pp_area_properties, second_moment) == 24);
     CHECK(offsetof(pp_area_properties, error) == 48);
 
-    CHECK(sizeof(pp_packing) == 88);
-    CHECK(offsetof(pp_packing, container) == 0);
-    CHECK(offsetof(pp_packing, arrangement) == 4);
-    CHECK(offsetof(pp_packing, shares) == 8);
-    CHECK(offsetof(pp_packing, threads) == 12);
-    CHECK(offsetof(pp_packing, lower) == 16);
-    CHECK(offsetof(pp_packing, upper) == 40);
-    CHECK(offsetof(pp_packing, margin) == 64);
-    CHECK(offsetof(pp_packing, seed) == 72);
-    CHECK(offsetof(pp_packing, number) == 80);
-
-    CHECK(sizeof(pp_joint) == 56);
-    CHECK(offsetof(pp_joint, normal) == 24);
-    CHECK(offsetof(pp_joint, radius) == 48);
-    CHECK(sizeof(pp_joint_set) == 56);
-    CHECK(offsetof(pp_joint_set, seed) == 40);
-    CHECK(offsetof(pp_joint_set, exponential) == 48);
-    CHECK(sizeof(pp_slice_settings) == 48);
-    CHECK(offsetof(pp_slice_settings, most_blocks) == 32);
-    CHECK(sizeof(pp_rock_summary) == 64);
-    CHECK(offsetof(pp_rock_summary, partners) == 24);
-    CHECK(offsetof(pp_rock_summary, unclosed) == 56);
     CHECK(sizeof(pp_rigid_body) == 128);
     CHECK(offsetof(pp_rigid_body, live_torque) == 96);
     CHECK(offsetof(pp_rigid_body, held) == 120);
@@ -151,23 +127,4 @@ void test_layout(void) {
     CHECK(offsetof(pp_rigid_contact, tension) == 72);
     CHECK(sizeof(pp_equilibrium_result) == 56);
     CHECK(offsetof(pp_equilibrium_result, factor) == 8);
-    CHECK(sizeof(pp_block) == 112);
-    CHECK(offsetof(pp_block, centroid) == 8);
-    CHECK(offsetof(pp_block, inertia) == 32);
-    CHECK(offsetof(pp_block, first_face) == 80);
-    CHECK(offsetof(pp_block, region) == 104);
-    CHECK(sizeof(pp_block_face) == 88);
-    CHECK(offsetof(pp_block_face, index) == 8);
-    CHECK(offsetof(pp_block_face, plane) == 16);
-    CHECK(offsetof(pp_block_face, area) == 48);
-    CHECK(offsetof(pp_block_face, jointed_area) == 56);
-    CHECK(offsetof(pp_block_face, block) == 80);
-    CHECK(sizeof(pp_face_partners) == 24);
-    CHECK(offsetof(pp_face_partners, area) == 16);
-
-    CHECK(sizeof(pp_placement) == 72);
-    CHECK(offsetof(pp_placement, pose) == 0);
-    CHECK(offsetof(pp_placement, scale) == 56);
-    CHECK(offsetof(pp_placement, shape) == 64);
-    CHECK(offsetof(pp_placement, reserved) == 68);
 }

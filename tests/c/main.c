@@ -37,10 +37,8 @@ int main(int count, char **arguments) {
     test_planar();
     test_planar_batch();
     test_planar_closest();
-    test_packing();
     test_patch();
     test_derivatives();
-    test_rock();
     test_builder();
     test_equilibrium();
     return check_report();

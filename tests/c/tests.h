@@ -20,10 +20,8 @@ void test_batch(void);
 void test_planar(void);
 void test_planar_batch(void);
 void test_planar_closest(void);
-void test_packing(void);
 void test_patch(void);
 void test_derivatives(void);
-void test_rock(void);
 void test_builder(void);
 void test_equilibrium(void);
 

@@ -20,7 +20,7 @@ from pathlib import Path
 import numpy as np
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "lammps-glue" / "python")]
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "out" / "lammps" / "build" / "python")]
 
 from scene import DEFAULTS, SCRIPT, TOP, lammps, random_bodies, write
 

@@ -3,7 +3,7 @@
 other.
 """
 import numpy as np
-from potential_particles_lammps.library import OVERLAPPING, detect, detect_plane, pose
+from potential_particles import Pose, Wall, contact_with_plane, detect
 from potential_particles_lammps.shapes import principal
 
 
@@ -43,15 +43,16 @@ class Loop:
         self.kind = [b[0] - 1 for b in bodies]
         self.x, self.v, self.w = (np.array([b[n] for b in bodies], float) for n in (1, 2, 3))
         self.R = [matrix(np.array(b[4])) for b in bodies]
-        self.mass = np.array([density * self.shapes[t].volume for t in self.kind])
-        self.moments = [density * np.diag(self.shapes[t].inertia) for t in self.kind]
+        masses = [shape.mass_properties(1e-9) for shape in self.shapes]
+        self.mass = np.array([density * masses[t].volume for t in self.kind])
+        self.moments = [density * np.diag(masses[t].inertia) for t in self.kind]
         self.kn, self.ks, self.mu, self.dt, self.gravity, self.planes = stiffness, shear, friction, dt, gravity, planes
         self.moving = list(moving) or [np.zeros(3)] * len(planes)
         self.memory, self.ever = {}, set()  # pairs that touch, that have touched; walls count down from -1
         self.forces(first=True)
 
     def poses(self):
-        return [pose(x, quaternion(R)) for x, R in zip(self.x, self.R)]
+        return [Pose(x, quaternion(R)) for x, R in zip(self.x, self.R)]
 
     def forces(self, first=False):
         self.F = self.mass[:, None] * np.array([0, 0, -self.gravity])
@@ -60,19 +61,17 @@ class Loop:
         for i in range(len(self.x)):
             for j in range(i + 1, len(self.x)):
                 a, b = self.shapes[self.kind[i]], self.shapes[self.kind[j]]
-                if np.linalg.norm(self.x[i] - self.x[j]) > a.radius + b.radius:
+                if np.linalg.norm(self.x[i] - self.x[j]) > a.bounding_radius + b.bounding_radius:
                     continue
                 found = detect(a, poses[i], b, poses[j])
-                if found.kind == OVERLAPPING:
+                if found.overlapping:
                     seen.add((i, j))
-                    self.touch((i, j), found.overlap, np.array(found.normal), np.array(found.branch_a),
-                               np.array(found.branch_b), i, j, None, first)
+                    self.touch((i, j), found.overlap, found.normal, found.branch_a, found.branch_b, i, j, None, first)
             for p, (point, normal) in enumerate(self.planes):
-                found = detect_plane(self.shapes[self.kind[i]], poses[i], point, normal)
-                if found.kind == OVERLAPPING:
+                found = contact_with_plane(self.shapes[self.kind[i]], poses[i], Wall(point, normal))
+                if found.overlapping:
                     seen.add((i, -1 - p))
-                    self.touch((i, -1 - p), found.overlap, np.array(found.normal), np.array(found.branch), None, i,
-                               None, self.moving[p], first)
+                    self.touch((i, -1 - p), found.overlap, found.normal, found.branch, None, i, None, self.moving[p], first)
         self.memory = {key: self.memory[key] for key in seen}
         self.ever |= seen
 

@@ -15,7 +15,7 @@ from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-sys.path[:0] = [str(HERE), str(HERE.parents[1] / "lammps-glue" / "python")]
+sys.path[:0] = [str(HERE), str(HERE.parents[1] / "out" / "lammps" / "build" / "python")]
 
 import report
 import test_entered

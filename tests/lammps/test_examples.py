@@ -29,7 +29,7 @@ def test_pile_and_its_files(folder):
     mass = vtk.vtkMassProperties()
     mass.SetInputData(data)
     mass.Update()
-    assert abs(mass.GetVolume() / (20 * shapes["pyramid"].volume) - 1) < 0.02, mass.GetVolume()
+    assert abs(mass.GetVolume() / (20 * shapes["pyramid"].mass_properties().volume) - 1) < 0.02, mass.GetVolume()
     assert write_vtk(folder / "pile.dump", [shapes["pyramid"]], str(folder / "pile")) == 4
     assert "pile.0000003000.vtp" in (folder / "pile.pvd").read_text() and (
         folder / "pile.0000003000.vtp").stat().st_size > 10_000

@@ -184,7 +184,7 @@ def test_atoms_that_come_during_a_run(folder):
         assert status == 0
         last = list(frames(folder / "all.dump"))[-1][1]
         assert len(last["id"]) == 29 and (last["z"] > 0).all()
-        assert np.allclose(last["mass"], 2600 * shape.volume, rtol=1e-5) and np.allclose(
-            last["radius"], shape.radius, rtol=1e-5)
+        assert np.allclose(last["mass"], 2600 * shape.mass_properties(1e-9).volume, rtol=1e-5) and np.allclose(
+            last["radius"], shape.bounding_radius, rtol=1e-5)
         q = np.column_stack([last[f"d2_orientation[{n}]"] for n in (1, 2, 3, 4)])
         assert np.abs(np.linalg.norm(q, axis=1) - 1).max() < 1e-5 and np.std(q, axis=0).min() > 0.1

@@ -1,13 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Seams of triangles: the same meshes in YADE and LAMMPS, and a mesh as one slab."""
-import ctypes
 from itertools import combinations
 
 import numpy as np
 from scene import SCRIPT, SHEAR, STIFFNESS, TOP, lammps, process, run, shapes, thermo
 from test_walls import floor, write_stl
 
-from potential_particles_lammps.library import OVERLAPPING, Particle, check, detect, detect_plane, library, pose, struct
+from potential_particles import Particle, Pose, Triangle, contact_with_triangle
 from potential_particles_lammps.pictures import frames
 
 YADE = TOP / "yade-glue" / "build" / "python" / "potential_particles"
@@ -31,21 +30,7 @@ def shapes_in(path):
 
 
 def overlaps(particle, its_pose, triangle):
-    found, corners = struct("pp_flat_contact")(), np.ascontiguousarray(triangle, float)
-    check(library().pp_contact_triangle(particle.handle, ctypes.byref(its_pose), ctypes.c_void_p(corners.ctypes.data),
-                                        None, None, ctypes.byref(found)))
-    return found.kind == OVERLAPPING
-
-
-def test_contacts_of_the_library(folder):
-    """Two balls and a floor by ctypes: the fields are those of the C structs."""
-    ball, here, there = Particle(np.empty((0, 4)), 1.0, 1.0, 1.0), pose((0, 0, 0), (1, 0, 0, 0)), pose((0, 0, 1.5),
-                                                                                                       (1, 0, 0, 0))
-    found = detect(ball, here, ball, there)
-    assert found.kind == OVERLAPPING and abs(found.overlap - 0.5) < 1e-10 and abs(found.normal[2] - 1) < 1e-10
-    assert isinstance(found.flags, int) and found.reserved == 0
-    floor_contact = detect_plane(ball, here, (0, 0, -0.75), (0, 0, 1))
-    assert floor_contact.kind == OVERLAPPING and abs(floor_contact.overlap - 0.25) < 1e-10
+    return contact_with_triangle(particle, its_pose, Triangle(*triangle)).overlapping
 
 
 def test_same_seams_in_yade(folder):
@@ -69,7 +54,7 @@ def test_same_seams_in_yade(folder):
     ends = np.cumsum(yade["counts"])
     seams = 0
     for n, (end, count) in enumerate(zip(ends, yade["counts"])):
-        its_pose = pose([bodies[c][n] for c in "xyz"], [bodies[f"d2_orientation[{i}]"][n] for i in (1, 2, 3, 4)])
+        its_pose = Pose([bodies[c][n] for c in "xyz"], [bodies[f"d2_orientation[{i}]"][n] for i in (1, 2, 3, 4)])
         particle = particles[f"shape{int(bodies['type'][n])}"]
         touched = [t for t in yade["triangles"][end - count:end] if overlaps(particle, its_pose, t)]
         seams += sum(bool({tuple(x) for x in a} & {tuple(x) for x in b}) for a, b in combinations(touched, 2))
@@ -103,5 +88,5 @@ def test_slides_as_over_one_slab(folder):
                 pushes += [[columns[name][0] for name in PUSHES] for _, columns in dumped]
             error = np.abs(np.subtract(mesh, plane)) / np.array(plane)[:, 2:3]
             assert len(error) == 101 and np.array(plane)[:, 2].min() > 10
-            assert error[:, :3].max() < 1e-9 and error[:, 3:].max() < 1e-9 * shapes()["cuboid"].radius, (kind, tilt,
+            assert error[:, :3].max() < 1e-9 and error[:, 3:].max() < 1e-9 * shapes()["cuboid"].bounding_radius, (kind, tilt,
                                                                                                          words)

@@ -60,7 +60,7 @@ def test_mesh_is_the_plane(folder):
 def test_belt(folder):
     """A plane that moves along itself takes a block along: friction first, then its velocity."""
     block = [(2, (0, 0, 0.0295), (0, 0, 0), (0, 0, 0), (1, 0, 0, 0))]
-    mass = DENSITY * shapes()["cuboid"].volume
+    mass = DENSITY * shapes()["cuboid"].mass_properties(1e-9).volume
     dumped, _ = run(
         folder, block, walls="fix belt all wall/potential/particle %g %g %g 0.3 plane 0 0 0 0 0 1 linear 0.2 0 0" %
         (STIFFNESS, SHEAR, FRICTION), run="run 3000")

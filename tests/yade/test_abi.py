@@ -64,10 +64,16 @@ check.true(O.interactions[0, 1].isReal,
 # A second copy of the module in the same process finds its names taken.
 check.raises(Exception, lambda: module._glue.register_classes(), "second registration", "already has a class")
 
-# Without YADE there is a sentence that says what to do.
-outside = subprocess.run([sys.executable, "-c", "import potential_particles"], capture_output=True, text=True,
-                         env=dict(os.environ, PYTHONPATH=os.environ["PP_PACKAGE"]))
-check.true(outside.returncode != 0 and "needs YADE" in outside.stderr, f"outside YADE: {outside.stderr[-300:]}")
+# Without YADE the package has its own names alone, and a sentence that says what to do for the others.
+def outside(program, path=os.environ["PP_PACKAGE"]):
+    return subprocess.run([sys.executable, "-c", program], capture_output=True, text=True,
+                          env=dict(os.environ, PYTHONPATH=path))
+
+
+said = outside("import potential_particles as pp; print(pp.Particle.sphere(2).R, hasattr(pp, 'body'))")
+check.equal(said.stdout, "2.0 False\n", f"outside YADE: {said.stderr[-300:]}")
+said = outside("import potential_particles.yade").stderr
+check.true("needs YADE" in said, f"outside YADE: {said[-300:]}")
 # In a plain Python that finds YADE it works like inside.
 program = """
 import sys
@@ -79,6 +85,20 @@ plain_python = subprocess.run([sys.executable, "-c", program], capture_output=Tr
                               env=dict(os.environ, PYTHONPATH=os.environ["PP_PACKAGE"]))
 last = (plain_python.stdout.split() or ["nothing"])[-1]
 check.true(last.startswith("2."), f"in a plain Python: {last} {plain_python.stderr[-300:]}")
+
+# A wheel of another version, which comes first on the path, and the plugin refuse each other.
+with tempfile.TemporaryDirectory() as folder:
+    others = shutil.copytree(GLUE, os.path.join(folder, "potential_particles"),
+                             ignore=shutil.ignore_patterns("yade.py", "_glue.so"))
+    first = os.path.join(others, "__init__.py")
+    text = open(first).read()
+    open(first, "w").write(text.replace('__version__ = "', '__version__ = "9.'))
+    said = outside(program, f"{folder}:{os.environ['PP_PACKAGE']}").stderr.strip().splitlines()[-1]
+    check.true("ImportError" in said and "version 9." in said and "install both of one version" in said,
+               f"another wheel: {said}")
+    open(first, "w").write(text)
+    both = outside(program, f"{folder}:{os.environ['PP_PACKAGE']}")
+    check.true((both.stdout.split() or ["nothing"])[-1].startswith("2."), f"a wheel of this version: {both.stderr[-300:]}")
 
 # A library that is missing, broken, or of another version: a sentence with the remedy, and no class registered.
 def import_with(glue=lambda binary: binary, library=None):

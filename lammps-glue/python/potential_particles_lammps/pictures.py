@@ -8,8 +8,9 @@ import sys
 
 import numpy as np
 
-from .files import written
-from .graphics import with_graphics
+from potential_particles.files import written
+from potential_particles.graphics import with_graphics
+
 from .shapes import read_shapes
 
 QUATERNION = [f"d2_orientation[{n}]" for n in (1, 2, 3, 4)]
@@ -47,7 +48,7 @@ def polydata(columns, shapes, tolerance=5e-3):
     import vtk
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     points, triangles, owners, first = [], [], [], 0
-    meshes = [shape.mesh(tolerance) for shape in shapes]
+    meshes = [(mesh.vertices, mesh.triangles) for mesh in (shape.mesh(tolerance) for shape in shapes)]
     x = np.column_stack([columns[c] for c in "xyz"])
     q = np.column_stack([columns[c] for c in QUATERNION])
     for i, kind in enumerate(columns["type"].astype(int)):

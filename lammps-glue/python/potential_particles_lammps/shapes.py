@@ -2,11 +2,11 @@
 """Files of shapes, as `fix potential/particle/shapes` reads them."""
 import numpy as np
 
-from .files import written
-from .library import Particle
+from potential_particles import Particle
+from potential_particles.files import written
 
-# Of the centre of mass over the radius, and of products of inertia over the largest moment.
-CENTRED, ROUNDS = 1e-9, 20
+# Of the centre of mass over the radius, and of products of inertia over the largest moment; of the mass, relative.
+CENTRED, ROUNDS, TOLERANCE = 1e-9, 20, 1e-9
 
 
 def polyhedron(normals, distances, rounding):
@@ -25,19 +25,19 @@ def principal(particle):
     """
     centre, rotation = np.zeros(3), np.eye(3)
     for _ in range(ROUNDS):
-        size = np.abs(particle.inertia).max()
-        if np.linalg.norm(particle.centroid) <= CENTRED * particle.radius and np.abs(
-                particle.inertia - np.diag(np.diag(particle.inertia))).max() <= CENTRED * size:
+        mass = particle.mass_properties(TOLERANCE)
+        inertia, at = mass.inertia, mass.centroid
+        is_off = np.linalg.norm(at) > CENTRED * particle.bounding_radius
+        size = np.abs(inertia).max()
+        if not is_off and np.abs(inertia - np.diag(np.diag(inertia))).max() <= CENTRED * size:
             return particle, (centre, rotation)
-        if particle.k > 0 and np.linalg.norm(particle.centroid) > CENTRED * particle.radius:
+        if particle.k > 0 and is_off:
             turn = np.eye(3)  # the shadow sphere stays about the origin: shape and centre change together
         else:
-            turn = _axes(particle.inertia - particle.volume * (particle.centroid @ particle.centroid * np.eye(3)
-                                                               - np.outer(particle.centroid, particle.centroid)))
+            turn = _axes(inertia - mass.volume * (at @ at * np.eye(3) - np.outer(at, at)))
         normals, offsets = particle.planes[:, :3], particle.planes[:, 3]
-        centre, rotation = centre + rotation @ particle.centroid, rotation @ turn
-        particle = Particle(np.column_stack([normals @ turn, offsets - normals @ particle.centroid]), particle.r,
-                            particle.k, particle.R)
+        centre, rotation = centre + rotation @ at, rotation @ turn
+        particle = Particle(np.column_stack([normals @ turn, offsets - normals @ at]), particle.r, particle.k, particle.R)
     raise ValueError("the shape cannot be centred: choose another origin, nearer to its centre of mass")
 
 

@@ -60,7 +60,7 @@ def check():
     again after some steps, when there are contacts.
     """
     import yade
-    from . import _prepare_ours
+    from .yade import _prepare_ours
     if not yade.O.running:
         _prepare_ours(yade)
     found = findings(yade.O, math.inf)
@@ -72,7 +72,7 @@ def check():
 def findings(scene, measured=_MEASURED_AT_FIRST):
     """What check() returns; the functors of the scene have been looked up. measured: the most volumes measured."""
     import yade
-    from . import _dispatchers
+    from .yade import _dispatchers
     ours = [body for body in scene.bodies if isinstance(body.shape, yade.PotentialParticle)]
     if not ours:
         return []

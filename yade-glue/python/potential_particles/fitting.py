@@ -11,7 +11,7 @@ import warnings
 import numpy as np
 
 from .arguments import positive, whole
-from .polyhedron import rotation
+from .polyhedron import fitted, rotation, rounded
 from .rounding import ROUNDING
 from .shape import Fit
 
@@ -82,7 +82,7 @@ def _warn(text):
 
 def _of_planes(hull, samples, volume, number, rounding, name):
     r, k, R = rounding.lengths(hull.size)
-    shape = hull.fitted(number, volume, r if rounding.is_chosen else None, k, R, name, TOLERANCE)
+    shape = fitted(hull, number, volume, r if rounding.is_chosen else None, k, R, name, TOLERANCE)
     return _with_fit(rounding.told_of(shape), samples, volume)
 
 
@@ -92,7 +92,7 @@ def _of_all_faces(hull, rounding, name):
     """
     share = ROUNDING
     while True:
-        shape = hull.rounded(*rounding.lengths(hull.size, share), name)
+        shape = rounded(hull, *rounding.lengths(hull.size, share), name)
         lost = 1.0 - shape.volume / hull.volume
         if rounding.is_chosen or lost <= LOST or share < LEAST_SHARE:
             return rounding.told_of(shape)

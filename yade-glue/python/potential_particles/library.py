@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The C interface of the library, by ctypes, for what is called once for a shape.
+"""The C interface of the library, by ctypes, for limit analysis.
 
 Arguments are as in C: float, int (a size), arrays, handles and references.
 """
@@ -27,24 +27,6 @@ def _given(value):
     return {float: ctypes.c_double, int: ctypes.c_size_t}.get(type(value), lambda one: one)(value)
 
 
-def call(name, *arguments):
-    """Calls a function; ValueError with the sentence of its status."""
-    status = getattr(_library(), name)(*map(_given, arguments))
-    if status:
-        raise ValueError(_library().pp_status_message(status).decode())
-
-
-def made(name, *arguments, results=()):
-    """The handle that a function makes; `results`: its outputs after the handle. ValueError with the sentence that it
-    writes.
-    """
-    handle, why = ctypes.c_void_p(), ctypes.create_string_buffer(_MESSAGE_SIZE)
-    outputs = ctypes.byref(handle), *map(_given, results), why, ctypes.c_size_t(_MESSAGE_SIZE)
-    if getattr(_library(), name)(*map(_given, arguments), *outputs):
-        raise ValueError(why.value.decode())
-    return handle
-
-
 def refuse(name, *arguments):
     """ValueError with the sentence of a function that makes nothing, if it writes one; RuntimeError if a solver has no
     answer.
@@ -54,16 +36,3 @@ def refuse(name, *arguments):
     if status:
         said = why.value.decode() or _library().pp_status_message(status).decode()
         raise (RuntimeError if status == _SOLVER_FAILED else ValueError)(said)
-
-
-def rows(name, handle, width, kind=float):
-    """All rows (n, width) that a function of an object writes."""
-    count = ctypes.c_size_t()
-    getattr(_library(), name)(handle, None, ctypes.c_size_t(0), ctypes.byref(count))
-    found = np.empty((count.value, width), kind)
-    call(name, handle, found, count.value, ctypes.byref(count))
-    return found
-
-
-def free(name, handle):
-    getattr(_library(), name)(handle)

@@ -15,6 +15,7 @@ import threading
 import time
 import typing
 
+from ._core import Particle, _packing
 from .arguments import number as finite
 from .arguments import LARGE, MANY, positive, rows, vector, whole
 
@@ -62,23 +63,18 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
     ValueError for what cannot be packed.
     """
     shapes = _shapes(shapes)
-    choices = _choices()
     if shares not in ("number", "mass", "passing"):
         raise ValueError(f"shares={shares!r} must be 'number', 'mass' or 'passing'")
     if number is None and not dense:
         raise ValueError("say how many: number=..., or dense=True for as many as fit")
     wanted = None if number is None else whole(number, 1, 10 * MANY, "number")
-    kind, lower, upper = _space(container)
+    space = _space(container)
     how = {
-        "container": choices[kind],
-        "arrangement": choices["settled" if dense else "scattered"],
-        "shares": choices[shares],
-        "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
-        "lower": lower,
-        "upper": upper,
+        "settled": bool(dense),
+        "number": wanted,
         "margin": finite(margin, "margin"),
         "seed": whole(seed, 0, LARGE, "seed"),
-        "number": wanted or 0,
+        "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
     }
     report = _Report(wanted, progress)
     placements = []
@@ -90,9 +86,10 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
 
     with _Interrupts() as interrupted:
         try:
-            _glue().pack([shape.particle() for shape in shapes], _size_rows(sizes), how, placed)
+            particles = [Particle(shape.planes, shape.r, shape.k, shape.R) for shape in shapes]
+            _packing.pack(particles, *space, _size_rows(sizes), shares, placed, **how)
         finally:
-            report.close(len(placements), interrupted, volume_between(placements), _volume(kind, lower, upper))
+            report.close(len(placements), interrupted, volume_between(placements), _volume(*space))
     return placements
 
 
@@ -167,15 +164,6 @@ def _centroid(placement):
     from yade import Quaternion, Vector3
     return Vector3(*placement.position) + Quaternion(*placement.orientation) * (Vector3(*placement.shape.centroid)
                                                                                 * placement.scale)
-
-
-def _glue():
-    from . import _glue
-    return _glue
-
-
-def _choices():
-    return _glue().packing_choices
 
 
 class _Interrupts:

@@ -15,7 +15,7 @@ import numpy as np
 
 from .arguments import MOST_PLANES, positive, rows, vector, whole
 from .bodies import body
-from .polyhedron import Polyhedron
+from .polyhedron import Polyhedron, rounded
 
 
 def potentialblock(material, a=[], b=[], c=[], d=[], r=0.0, R=0.0, mask=1, isBoundary=False, fixed=False,
@@ -124,7 +124,7 @@ def _faced(faces, r, material, center, mask, isBoundary, fixed, color, name):
 
 def _body(sharp, r, material, center, mask, isBoundary, fixed, color, name):
     """A polyhedron with the rounding radius r, a length; 0: half of the least distance of a face from the origin."""
-    shape = sharp.rounded(positive(r or 0.5 * float(sharp.offsets.min()), "r"), 0.0, None, name)
+    shape = rounded(sharp, positive(r or 0.5 * float(sharp.offsets.min()), "r"), 0.0, None, name)
     if color is None or color[0] == -1:
         color = [_random.random() for _ in range(3)]
     return body(shape, material, center, fixed=fixed, color=color, mask=mask, isBoundary=isBoundary)

@@ -3,7 +3,7 @@
 import numpy as np
 
 from .arguments import LARGE, positive, whole, within
-from .polyhedron import Polyhedron
+from .polyhedron import Polyhedron, rounded
 from .rounding import SPHERICITY, Rounding
 
 
@@ -29,7 +29,7 @@ def random_rock(seed, size=1.0, elongation=1.0, flatness=1.0, faces=24, roughnes
     clear = wanted.lengths(2.0 * half.min())[0]
     offsets[6:] = np.maximum(offsets[6:], (normals[6:] @ feet.T).max(1) + clear)
     polyhedron = Polyhedron.of_planes(normals, offsets)
-    return polyhedron.rounded(*wanted.lengths(polyhedron.size), name or f"rock {seed}")
+    return rounded(polyhedron, *wanted.lengths(polyhedron.size), name or f"rock {seed}")
 
 
 def _planes(random, half, faces, roughness):

@@ -22,7 +22,7 @@ from . import fitting
 from .arguments import LARGE, MOST_PLANES, bearable, positive, rows, vector, whole, within
 from .convex_parts import clump_from_mesh
 from .mesh_file import from_mesh
-from .polyhedron import CAPSULE, CONE, CYLINDER, ELLIPSOID, SUPERQUADRIC, Polyhedron, round_shape
+from .polyhedron import Polyhedron, round_shape, rounded
 from .random_rock import random_rock
 from .rounding import SPHERICITY, Rounding
 from .shape import Fit, Shape
@@ -94,7 +94,7 @@ def prism(sides=6, radius=0.5, height=1.0, top_radius=None, rounding=None, k=SPH
 def cylinder(radius=0.5, height=1.0, sides=48, rounding=None, k=SPHERICITY, R=None, name="cylinder", *, r=None):
     """A cylinder along z as a prism of as many sides, whose section, rounded as it is, has the area pi radius^2."""
     radius, height = _lengths(radius, height)
-    return _round(CYLINDER, (radius, height), sides, min(2.0 * radius, height), Rounding(rounding, k, r, R), name)
+    return _round("cylinder", (radius, height), sides, min(2.0 * radius, height), Rounding(rounding, k, r, R), name)
 
 
 def cone(radius=0.5, height=1.0, sides=48, rounding=None, k=SPHERICITY, R=None, name="cone", *, r=None):
@@ -105,17 +105,17 @@ def cone(radius=0.5, height=1.0, sides=48, rounding=None, k=SPHERICITY, R=None, 
     """
     radius, height = _lengths(radius, height)
     size = 2.0 * radius * height / (radius + math.hypot(radius, height))
-    return _round(CONE, (radius, height), sides, size, Rounding(rounding, k, r, R), name)
+    return _round("cone", (radius, height), sides, size, Rounding(rounding, k, r, R), name)
 
 
 def ellipsoid(axes=(1.0, 0.8, 0.6), name="ellipsoid"):
     """An ellipsoid about the origin with these semi-axes along x, y, z: exact, of 6 planes through its centre."""
-    return round_shape(ELLIPSOID, [positive(axis, "axes") for axis in vector(axes, "axes")], name)
+    return round_shape("ellipsoid", [positive(axis, "axes") for axis in vector(axes, "axes")], name)
 
 
 def capsule(radius=0.5, length=1.0, name="capsule"):
     """All points within `radius` of a segment of this length along z, about the origin: exact, of 6 planes."""
-    return round_shape(CAPSULE, (positive(radius, "radius"), positive(length, "length")), name)
+    return round_shape("capsule", (positive(radius, "radius"), positive(length, "length")), name)
 
 
 def superquadric(axes, exponents, planes=48, rounding=None, k=SPHERICITY, R=None, name="superquadric", *, r=None):
@@ -126,7 +126,7 @@ def superquadric(axes, exponents, planes=48, rounding=None, k=SPHERICITY, R=None
     """
     axes = [positive(axis, "axes") for axis in vector(axes, "axes")]
     n, e = (within(one, 0.1, 2.0, "exponents") for one in exponents)
-    return _round(SUPERQUADRIC, (*axes, n, e), planes, 2.0 * min(axes), Rounding(rounding, k, r, R), name)
+    return _round("superquadric", (*axes, n, e), planes, 2.0 * min(axes), Rounding(rounding, k, r, R), name)
 
 
 def platonic_solid(faces, edge=1.0, rounding=None, k=SPHERICITY, R=None, name=None, *, r=None):
@@ -136,12 +136,12 @@ def platonic_solid(faces, edge=1.0, rounding=None, k=SPHERICITY, R=None, name=No
 
 
 def _rounded(polyhedron, rounding, name):
-    return rounding.told_of(polyhedron.rounded(*rounding.lengths(polyhedron.size), name))
+    return rounding.told_of(rounded(polyhedron, *rounding.lengths(polyhedron.size), name))
 
 
 def _round(form, sizes, planes, size, rounding, name):
     """`size`: that of the sharp shape, of which rounding is a share."""
-    planes = whole(planes, 3, MOST_PLANES - 2, "planes" if form == SUPERQUADRIC else "sides")
+    planes = whole(planes, 3, MOST_PLANES - 2, "planes" if form == "superquadric" else "sides")
     r, k, R = rounding.lengths(size)
     return rounding.told_of(round_shape(form, sizes, name, planes, (r if rounding.is_chosen else None, k, R)))
 

@@ -10,9 +10,7 @@
 #include "joint/conic_joint.hpp"
 #include "joint/joints_in_step.hpp"
 #include "joint/patch_surface.hpp"
-#include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
-#include "rock/rock.hpp"
 #include "shape/conic_potential_particle.hpp"
 #include "shape/plane_lists.hpp"
 #include "python_bytes.hpp"
@@ -110,10 +108,5 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("take_joints", &takeJoints);
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("patch_surface", &pp::patchSurface);
-    py::def("pack", &pp::packContainer);
-    py::def("joint_from_corners", &pp::jointFromCorners);
-    py::def("joints_of_set", &pp::jointsOfSet);
-    py::def("slice_rock", &pp::sliceRock);
     py::def("window_dispatcher", &pp::windowDispatcher);
-    py::scope().attr("packing_choices") = pp::packingChoices();
 }

@@ -102,7 +102,7 @@ def render(of_bodies, of_boundaries, view, width, height, within=None):
 
     within: triangles with a colour at each corner, (n, 3, 3), that are seen through the bodies.
     """
-    from .graphics import with_graphics
+    from ..graphics import with_graphics
     return with_graphics(_render, of_bodies, of_boundaries, view, width, height, within)
 
 

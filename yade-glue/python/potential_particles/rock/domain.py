@@ -6,6 +6,7 @@ import typing
 
 import numpy as np
 
+from .._core import _slicing
 from ..arguments import MOST_PLANES, positive, rows, vector, whole
 from .joints import joint
 
@@ -77,13 +78,7 @@ class Domain:
         """Centre (3,) and radius of a ball that holds it, without regards to what is left out; ValueError if it is
         empty or open.
         """
-        from .. import _glue
-        limits = {
-            "least_volume": 0.0, "least_thickness": 0.0, "least_width": 0.0, "largest_aspect": 0.0, "most_blocks": 1,
-            "threads": 1
-        }
-        read = _glue.slice_rock(self.planes.tobytes(), b"", b"", [], b"", [], limits, None)
-        corners = np.frombuffer(read["corners"]).reshape(-1, 3)
+        corners = _slicing.slice(self.planes, [], most_blocks=1).arrays()[3]
         centre = 0.5 * (corners.min(0) + corners.max(0))
         return centre, float(np.linalg.norm(corners - centre, axis=1).max())
 

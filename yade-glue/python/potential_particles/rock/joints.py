@@ -6,6 +6,7 @@ import typing
 
 import numpy as np
 
+from .._core import _slicing
 from ..arguments import LARGE, MANY, number, positive, rows, vector, whole, within
 
 
@@ -36,10 +37,8 @@ def polygon(corners):
     """The Joint that is a convex polygon, by its corners (n, 3) in their order; ValueError where they lie off one plane
     or on one line, or are no convex polygon's.
     """
-    from .. import _glue
     outline = rows(corners, 3, "corners", "the three numbers x, y, z")
-    made = np.frombuffer(_glue.joint_from_corners(outline.tobytes())).tolist()
-    return Joint(tuple(made[:3]), tuple(made[3:6]), made[6], tuple(map(tuple, outline.tolist())))
+    return _of_core(_slicing.Joint.of_corners(outline), tuple(map(tuple, outline.tolist())))
 
 
 def rectangle(point, dip, dip_direction, length, width):
@@ -89,19 +88,19 @@ class JointSet:
         """A list of Joint: those that cross the line through `centre` along the mean normal within `reach`; discs that
         reach into that ball.
         """
-        from .. import _glue
-        fields = {name: getattr(self, name) for name in ("dip", "dip_direction", "spacing", "fisher", "radius", "seed")}
-        made = _glue.joints_of_set(
-            {
-                **{name: float(value)
-                   for name, value in fields.items()}, "seed": int(self.seed), "exponential": bool(self.exponential)
-            }, tuple(map(float, vector(centre, "centre"))), positive(reach, "reach"))
-        made = np.frombuffer(made).reshape(-1, 7)
+        made = _slicing.joint_set(self.dip, self.dip_direction, self.spacing, centre=vector(centre, "centre"),
+                                  reach=positive(reach, "reach"), exponential=bool(self.exponential),
+                                  fisher=self.fisher, radius=self.radius, seed=int(self.seed))
         if len(made) > MANY:
             raise ValueError(
                 f"spacing={self.spacing:g} makes {len(made)} joints, and no more than {MANY} are made: take a larger one, or a smaller domain"
             )
-        return [Joint(tuple(row[:3]), tuple(row[3:6]), float(row[6])) for row in made.tolist()]
+        return [_of_core(one) for one in made]
+
+
+def _of_core(joint, outline=()):
+    point, normal, radius = joint._parts
+    return Joint(tuple(point), tuple(normal), radius, outline)
 
 
 def _radius(radius):

@@ -9,16 +9,12 @@ import typing
 
 import numpy as np
 
+from .._core import _slicing
 from ..arguments import LARGE, number, whole, within
 from .domain import Domain, convex
 from .joints import Joint, JointSet
 
-# The structs of potential_particles.h.
-BLOCK = np.dtype([("volume", "f8"), ("centroid", "f8", 3), ("inertia", "f8", 6), ("first_face", "u8"),
-                  ("face_count", "u8"), ("parent", "u8"), ("region", "i8")])
-FACE = np.dtype([("of", "u4"), ("region", "u4"), ("index", "u8"), ("plane", "f8", 4), ("area", "f8"),
-                 ("jointed_area", "f8"), ("first_corner", "u8"), ("corner_count", "u8"), ("block", "u8")])
-PARTNERS = np.dtype([("faces", "u8", 2), ("area", "f8")])
+# What a face lies on.
 OF_DOMAIN, OF_JOINT, OF_REGION = range(3)
 
 # A face, or a part of it, this much smaller than the whole is none.
@@ -179,7 +175,6 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     most_blocks: more are a ValueError. threads: that cut, None for one on each processor; the blocks are the same for
         any number. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
     """
-    from .. import _glue
     if not isinstance(domain, Domain):
         raise ValueError(f"domain is {type(domain).__name__}, not a rock.Domain: Domain.box(lower, upper) makes one")
     regions = convex(regions)
@@ -188,7 +183,7 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     limits = {
         "least_volume": _not_negative(least_volume, "least_volume"),
         "least_thickness": _not_negative(least_thickness, "least_thickness"), "least_width": _not_negative(
-            least_width, "least_width"), "largest_aspect": 0.0 if largest_aspect == math.inf else within(
+            least_width, "least_width"), "largest_aspect": math.inf if largest_aspect == math.inf else within(
                 largest_aspect, 1.0, math.inf, "largest_aspect"),
         "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
         "most_blocks": whole(most_blocks, 1, LARGE, "most_blocks")
@@ -199,20 +194,16 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
         made = _joints_of(given, entry, centre, reach)
         cutting += made
         numbers += [entry] * len(made)
-    rows = np.array([(*one.point, *one.normal, one.radius) for one in cutting], float)
-    outlines = np.array([corner for one in cutting for corner in one.outline], float)
-    cut_out = [*domain.left_out, *regions]
+    cuts = [_cut(number, one) for number, one in enumerate(cutting)]
+    cut_out = [one.planes for one in (*domain.left_out, *regions)]
     with _Report(len(cutting), progress) as report:
-        read = _glue.slice_rock(domain.planes.tobytes(), rows.tobytes(), outlines.tobytes(),
-                                [len(one.outline) for one in cutting], b"".join(one.planes.tobytes()
-                                                                                for one in cut_out),
-                                [len(one.planes) for one in cut_out], limits, report.told)
-    done = int(read["joints"])
-    mass = RockMass(blocks=np.frombuffer(read["blocks"], BLOCK), faces=np.frombuffer(read["faces"], FACE),
-                    corners=np.frombuffer(read["corners"]).reshape(-1, 3), partners=np.frombuffer(
-                        read["partners"], PARTNERS), joints=cutting[:done], set_of_joint=np.array(numbers[:done], int),
-                    missing=np.frombuffer(read["missing"], "u8").astype(int), too_small=int(read["too_small"]),
-                    unclosed=int(read["unclosed"]), complete=done == len(cutting), planes=len(domain.planes))
+        cut = _slicing.slice(domain.planes, cuts, regions=cut_out, progress=report.told, **limits)
+    done = cut.joints
+    blocks, faces, partners, corners = cut.arrays()
+    mass = RockMass(blocks=blocks, faces=faces, corners=corners, partners=partners, joints=cutting[:done],
+                    set_of_joint=np.array(numbers[:done], int), missing=np.array(cut.missing, int),
+                    too_small=cut.too_small, unclosed=cut.unclosed, complete=done == len(cutting),
+                    planes=len(domain.planes))
     if report.noted and mass.complete:
         print("Ctrl-C came in the last round of cuts, which went on to its end: the blocks are complete",
               file=sys.stderr)
@@ -240,6 +231,16 @@ def _joints_of(given, entry, centre, reach) -> typing.List[Joint]:
             raise ValueError(
                 f"joints[{entry}] holds {type(one).__name__}: give a JointSet, a Joint or a list of Joints")
     return made
+
+
+def _cut(number, joint):
+    """A Joint for _core."""
+    if not joint.outline:
+        return _slicing.Joint.of_normal(*joint[:3])
+    try:
+        return _slicing.Joint.of_corners(joint.outline)
+    except ValueError as error:
+        raise ValueError(str(error).replace("a joint", f"joint {number}", 1)) from None
 
 
 def _listed(given, name):

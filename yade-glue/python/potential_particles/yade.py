@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Contacts between potential particles for YADE.
+"""Contacts between potential particles for YADE, whose names stand in `potential_particles` too, in YADE.
 
-Import it at the top of a YADE script, before O.engines is filled:
+Import either at the top of a YADE script, before O.engines is filled:
 
     import potential_particles
 
@@ -36,11 +36,9 @@ our functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
-import importlib.util
-import pkgutil
 import sys
 
-from . import builds, window
+from . import __version__, _core, builds, window
 from .bodies import body
 from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
@@ -56,7 +54,8 @@ from .specimen import grading_curve, sampled_porosity
 from .start import start_from
 from .time_step import critical_time_step, time_stepper
 
-__version__ = "0.2.0"
+#: That of the plugin, and of every file beside this one.
+_PLUGIN = "0.2.0"
 
 __all__ = [
     "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
@@ -111,6 +110,15 @@ def _import_glue(running):
             remedy = "build the plugin with `cmake -S yade-glue -B yade-glue/build && cmake --build yade-glue/build`"
         raise ImportError("potential_particles cannot load its plugin: %s (%s)" % (reason, remedy)) from error
     return _glue
+
+
+def _check_core():
+    """The package and its _core may be a wheel's, which comes first on the path, and the plugin another installation's."""
+    for what, version in (("the package", __version__), ("its module _core", _core.__version__)):
+        if version != _PLUGIN:
+            raise ImportError(
+                "potential_particles: %s in %s is version %s, the plugin for YADE is %s: install both of one version, or "
+                "take the wheel away" % (what, _core.__file__, version, _PLUGIN))
 
 
 def _check_library(glue):
@@ -238,22 +246,8 @@ def library_version():
     return _glue.library_version()
 
 
-def _take_numpy_names():
-    """The names of the package of the same name for numpy arrays (docs/wheel.md), whose objects they are; False where
-    it is not installed beside this one.
-    """
-    global __path__
-    __path__ = pkgutil.extend_path(__path__, __name__)
-    if importlib.util.find_spec("._api", __name__) is None:
-        return False
-    from . import _api
-    for name in _api.__all__:
-        globals()[name] = getattr(_api, name)
-        __all__.append(name)
-    return True
-
-
 def _load():
+    _check_core()
     yade, running = _import_yade()
     glue = _import_glue(running)
     _check_library(glue)
@@ -271,12 +265,7 @@ def _load():
     return glue
 
 
-_in_yade = "yade" in sys.modules or importlib.util.find_spec("yade") is not None
-# A Python without YADE has the names for numpy arrays alone, whichever of both packages comes first on the path.
-if not _in_yade:
-    __all__.clear()
-if not _take_numpy_names() or _in_yade:
-    _glue = _load()
-    # After the classes that they serve.
-    from .check import SceneWarning, check  # noqa: F401
-    from .output import Mesh, Recorder, mesh, plot, plot_equilibrium, save_mesh  # noqa: F401
+_glue = _load()
+# After the classes that they serve.
+from .check import SceneWarning, check  # noqa: E402, F401
+from .output import Mesh, Recorder, mesh, plot, plot_equilibrium, save_mesh  # noqa: E402, F401

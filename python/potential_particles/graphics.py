@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """OpenGL without a display, for VTK: a context of EGL's surfaceless platform, which Mesa has, on the processor if need
 be.
 

@@ -1,1 +1,0 @@
-../../../yade-glue/python/potential_particles/files.py

@@ -1,1 +1,0 @@
-../../../python/potential_particles/mesh_text.py
