@@ -1,5 +1,5 @@
 //! Equilibrium: closed forms, and how time and memory grow with the number of blocks. Writes
-//! out/equilibrium/summary.json, and out/equilibrium/drawn.json for the pictures; `-- quick` takes the small scenes only.
+//! out/equilibrium/summary.json, and drawn.json there for the pictures; `-- quick` takes the small scenes only.
 
 use kit::masonry::{arch, block, ferris_tin_loi, pushed, random_rock, random_slope, v, wall, wedge};
 use kit::target::{self, at_most, own_time};
@@ -175,7 +175,7 @@ fn drawn() -> Value {
     };
     let fronts: Vec<_> = wall.bodies.iter().map(front).collect();
     let (mass, slope) = random_rock(30, 60.0);
-    let outline = |block: &Block| block.faces.iter().map(|face| block.corners_of(face).to_vec());
+    let outline = |block: &Block| block.faces.iter().map(move |face| block.corners_of(face).to_vec());
     let outlines: Vec<Vec<Vec<_>>> = mass.blocks.iter().map(|block| outline(block).collect()).collect();
     json!({
         "wall": at_limit("load factor", &wall, &fronts, |flow| load_factor(&wall, flow)),
