@@ -27,11 +27,13 @@
 //! | `graded_basis` | axes aligned with the stiffest planes |
 //! | `line` | the minimum of a convex, piecewise quadratic function of one variable |
 //! | `root` | the root of a function of one variable on a bracket |
+//! | `polygon` | a convex polygon, cut by a line |
 
 pub(crate) mod double_double;
 pub(crate) mod graded_basis;
 pub(crate) mod line;
 pub(crate) mod number;
+pub(crate) mod polygon;
 pub(crate) mod root;
 pub(crate) mod sine_and_cosine;
 pub(crate) mod symmetric;

@@ -1,26 +1,7 @@
 //! The largest ball within half-spaces: max ρ subject to n_i·x + ρ ≤ h_i, |n_i| = 1.
-//!
-//! Its dual, min Σ y_i h_i subject to Σ y_i n_i = 0, Σ y_i = 1, y ≥ 0, has four equations, so that the simplex method
-//! works with bases of four half-spaces: their ball touches all four, and the half-space that cuts it most enters.
 
-use nalgebra::{Matrix4, Vector3, Vector4};
-
-/// Half-spaces that a ball may cut by this share of the largest height, by rounding.
-const CUT: f64 = 1e-13;
-
-/// Steps with the half-space that is cut most; from then on the first one enters, and the first leaves, which never
-/// leads in circles (Bland).
-const STEEPEST: usize = 200;
-
-/// Changes of a weight below this share of the largest are rounding: with such a half-space leaving, the others would
-/// be dependent.
-const PIVOT: f64 = 1e-9;
-
-/// Rounding of the weights, whose sum is 1.
-const SLACK: f64 = 1e-12;
-
-/// Most steps: far more than any body has taken.
-const MOST_STEPS: usize = 100_000;
+use super::linear_program::{HalfSpace, maximiser};
+use nalgebra::{Vector3, Vector4};
 
 /// The radius of the largest ball in {n·x ≤ h}, for unit normals n of a bounded body that holds the origin; its size is
 /// at most `extent`, length. `None` if rounding leaves no answer.
@@ -28,35 +9,8 @@ pub(crate) fn radius(faces: &[(Vector3<f64>, f64)], extent: f64) -> Option<f64> 
     // A tetrahedron far outside begins.
     let corners = [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]];
     let outside = corners.map(|corner| (Vector3::from(corner) / 3f64.sqrt(), 1e3 * extent));
-    let all: Vec<_> = outside.iter().chain(faces).copied().collect();
-    let column = |i: usize| Vector4::new(all[i].0.x, all[i].0.y, all[i].0.z, 1.0);
-    let mut basis = [0, 1, 2, 3];
-    for step in 0..MOST_STEPS {
-        let system = Matrix4::from_columns(&basis.map(column)).lu();
-        // Of the ball that touches all four: (x, ρ)ᵀ B = h.
-        let heights = Vector4::from(basis.map(|i| all[i].1));
-        let ball = Matrix4::from_columns(&basis.map(column)).transpose().lu().solve(&heights)?;
-        let cut = |i: usize| column(i).dot(&ball) - all[i].1;
-        let most = |best: Option<usize>, i: usize| {
-            let is_better = cut(i) > CUT * extent && best.is_none_or(|best| step < STEEPEST && cut(i) > cut(best));
-            if is_better { Some(i) } else { best }
-        };
-        let Some(entering) = (0..all.len()).fold(None, most) else { return Some(ball.w) };
-        let weights = system.solve(&Vector4::new(0.0, 0.0, 0.0, 1.0))?;
-        let change = system.solve(&column(entering))?;
-        let least = PIVOT * change.amax();
-        let falling = || (0..4).filter(|&j| change[j] > least);
-        // Weights that reach 0 together, within rounding (Harris): of them the one that falls fastest leaves.
-        let first = falling().map(|j| (weights[j].max(0.0) + SLACK) / change[j]).fold(f64::INFINITY, f64::min);
-        let together = falling().filter(|&j| weights[j].max(0.0) <= first * change[j]);
-        let leaving = if step < STEEPEST {
-            together.max_by(|&i, &j| change[i].total_cmp(&change[j]))?
-        } else {
-            together.min_by_key(|&j| basis[j])?
-        };
-        basis[leaving] = entering;
-    }
-    None
+    let all: Vec<HalfSpace> = outside.iter().chain(faces).map(|(n, h)| (n.push(1.0), *h)).collect();
+    maximiser(&all, &Vector4::w(), [0, 1, 2, 3]).map(|(ball, _)| ball.w)
 }
 
 #[cfg(test)]

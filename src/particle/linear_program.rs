@@ -1,11 +1,10 @@
-//! Whether half-spaces enclose a volume (half-planes an area), and how large it is: linear programs in 3 or 2 unknowns.
+//! Linear programs in up to four unknowns: whether half-spaces enclose a volume (half-planes an area), and how large it
+//! is.
 //!
-//! Used where a particle with k = 0 is made whose corners do not show at once that it is bounded, and by
-//! `planes_enclose`. A program max e·x subject to n_i·x ≤ h_i is solved by Seidel's randomised incremental algorithm
-//! (1991): half-spaces are added in random order, and only when one cuts off the optimum so far is the program solved
-//! again on its plane, with one unknown less. The expected time is proportional to the number of half-spaces.
+//! A program max c·x subject to a_i·x ≤ h_i is solved by the dual simplex method: the four planes of a basis meet in a
+//! point, the half-space that cuts it off most enters the basis, and one whose multiplier reaches 0 first leaves.
 //!
-//! The optimum itself is not trusted. Its active planes give multipliers y ≥ 0 with Σ y_i n_i ≈ e, and by weak duality
+//! A bound is not trusted for that. The active planes give multipliers y ≥ 0 with Σ y_i n_i ≈ e, and by weak duality
 //!
 //! ```text
 //! e·x = Σ y_i n_i·x + ρ·x ≤ Σ y_i h_i + |ρ|₁ |x|_∞,   ρ = e − Σ y_i n_i
@@ -13,16 +12,30 @@
 //!
 //! for every x that the half-spaces hold, whatever rounding did on the way. Taken for all axes this bounds |x|_∞.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
 
 /// Half the edge of the cube in which optima are sought, in distances of the farthest face. An optimum on the cube
 /// means unbounded: with unit normals a larger polyhedron has multipliers above 1e9, which [`LARGEST_RESIDUAL`]
 /// refuses.
 const CUBE: f64 = 1e10;
 
-/// Part of the terms of n·x − h below which its sign is not trusted. Far above rounding, so that planes through one
+/// Part of the terms of a·x − h below which its sign is not trusted. Far above rounding, so that planes through one
 /// corner are not taken to cut each other off; what is overlooked is covered by the dual bound.
 const UNDECIDED: f64 = 1e-12;
+
+/// Steps with the half-space that cuts most; from then on the first one enters, and the first leaves, which never leads
+/// in circles (Bland).
+const STEEPEST: usize = 200;
+
+/// Changes of a multiplier below this share of the largest are rounding: with such a half-space leaving, the others
+/// would be dependent.
+const PIVOT: f64 = 1e-9;
+
+/// Rounding of multipliers, in units of 1.
+const SLACK: f64 = 1e-12;
+
+/// Most steps: far more than any body has taken.
+const MOST_STEPS: usize = 100_000;
 
 /// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, with
 /// |n|₁ ≤ √3 together 3.5ε; as much for the normalisation of n; one more for h and the sum.
@@ -35,19 +48,43 @@ const LARGEST_RESIDUAL: f64 = 1e-6;
 /// Part of the scale below which an extent is so small that the units may have cost digits.
 const TINY: f64 = 1e-100;
 
-/// Orders of the half-spaces that are tried: where many planes meet in a corner, rounding may lead to planes that are
-/// not those of the optimum.
-const ATTEMPTS: u64 = 4;
+/// a and h of a half-space a·x ≤ h.
+pub(super) type HalfSpace = (Vector4<f64>, f64);
 
-/// Place of the cube's own faces.
-const OF_CUBE: usize = usize::MAX;
-
-/// n·x ≤ h in the unknowns that are left, and the index among those given.
-#[derive(Clone, Copy, Debug)]
-struct HalfSpace {
-    n: [f64; 3],
-    h: f64,
-    place: usize,
+/// The maximiser of c·x over half-spaces and the four that meet there, from four of which c is a sum with weights ≥ 0.
+/// `None` if rounding leaves no answer.
+pub(super) fn maximiser(
+    all: &[HalfSpace],
+    c: &Vector4<f64>,
+    mut basis: [usize; 4],
+) -> Option<(Vector4<f64>, [usize; 4])> {
+    for step in 0..MOST_STEPS {
+        let columns = Matrix4::from_columns(&basis.map(|i| all[i].0));
+        let x = columns.transpose().lu().solve(&Vector4::from(basis.map(|i| all[i].1)))?;
+        let mut entering = None;
+        for (i, (a, h)) in all.iter().enumerate() {
+            let terms = a.component_mul(&x);
+            let (cut, size) = (terms.sum() - h, terms.abs().sum() + h.abs());
+            if cut > UNDECIDED * size && entering.is_none_or(|(_, most)| step < STEEPEST && cut > most) {
+                entering = Some((i, cut));
+            }
+        }
+        let Some((entering, _)) = entering else { return Some((x, basis)) };
+        let system = columns.lu();
+        let (weights, change) = (system.solve(c)?, system.solve(&all[entering].0)?);
+        let least = PIVOT * change.amax();
+        let falling = || (0..4).filter(|&j| change[j] > least);
+        // Weights that reach 0 together, within rounding (Harris): of them the one that falls fastest leaves.
+        let first = falling().map(|j| (weights[j].max(0.0) + SLACK) / change[j]).fold(f64::INFINITY, f64::min);
+        let together = falling().filter(|&j| weights[j].max(0.0) <= first * change[j]);
+        let leaving = if step < STEEPEST {
+            together.max_by(|&i, &j| change[i].total_cmp(&change[j]))?
+        } else {
+            together.min_by_key(|&j| basis[j])?
+        };
+        basis[leaving] = entering;
+    }
+    None
 }
 
 /// Half the edge of a cube about the origin that holds {x : n·x ≤ h for every face}, |n| = 1, h > 0; `None` if
@@ -75,130 +112,48 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Opt
 
 /// The same in units of the farthest face.
 fn extent(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
-    (0..ATTEMPTS).find_map(|seed| {
-        let order = shuffled(faces.len(), seed);
-        let half_spaces: Vec<_> =
-            order.into_iter().map(|place| HalfSpace { n: faces[place].0.into(), h: faces[place].1, place }).collect();
-        let (mut most, mut residual): (f64, f64) = (0.0, 0.0);
-        for axis in 0..dimensions {
-            for sign in [1.0, -1.0] {
-                let e = Vector3::ith(axis, sign);
-                let mut active = [OF_CUBE; 3];
-                maximise(&half_spaces, e.into(), dimensions, &mut active);
-                let (bound, of_bound) = dual_bound(faces, &e, &active[..dimensions])?;
-                (most, residual) = (most.max(bound), residual.max(of_bound));
-            }
+    // Of the cube its upper faces, then its lower ones; in place of unknowns that are not there, planes that hold them
+    // at 0.
+    let axis = |i: usize| (Vector4::ith(i, 1.0), if i < dimensions { CUBE } else { 0.0 });
+    let cube = (0..4).map(axis).chain((0..4).map(axis).map(|(a, h)| (-a, h)));
+    let all: Vec<HalfSpace> = cube.chain(faces.iter().map(|(n, h)| (n.push(0.0), *h))).collect();
+    let (mut most, mut residual): (f64, f64) = (0.0, 0.0);
+    for axis in 0..dimensions {
+        for (sign, first) in [(1.0, 0), (-1.0, 4)] {
+            let mut basis = [0, 1, 2, 3];
+            basis[axis] += first;
+            let e = Vector3::ith(axis, sign);
+            let (_, active) = maximiser(&all, &e.push(0.0), basis)?;
+            let (bound, of_bound) = dual_bound(faces, &e, active, dimensions)?;
+            (most, residual) = (most.max(bound), residual.max(of_bound));
         }
-        (residual <= LARGEST_RESIDUAL).then(|| most / (1.0 - residual))
-    })
+    }
+    (residual <= LARGEST_RESIDUAL).then(|| most / (1.0 - residual))
 }
 
 /// Σ y_i h_i and |ρ|₁, with bounds on rounding, for the multipliers of these planes.
-fn dual_bound(faces: &[(Vector3<f64>, f64)], e: &Vector3<f64>, active: &[usize]) -> Option<(f64, f64)> {
+fn dual_bound(
+    faces: &[(Vector3<f64>, f64)],
+    e: &Vector3<f64>,
+    active: [usize; 4],
+    dimensions: usize,
+) -> Option<(f64, f64)> {
     // In two dimensions the z axis completes the basis, without a weight.
     let (mut normals, mut distances) = (Matrix3::identity(), Vector3::zeros());
-    for (column, &place) in active.iter().enumerate() {
+    let mut column = 0;
+    for place in active {
+        if place < 8 && place % 4 >= dimensions {
+            continue;
+        }
         // A face of the cube: the half-spaces reach it.
-        let (n, h) = faces.get(place)?;
+        let (n, h) = faces.get(place.wrapping_sub(8))?;
         normals.set_column(column, n);
         distances[column] = *h;
+        column += 1;
     }
     let y = normals.lu().solve(e)?.map(|weight| weight.max(0.0));
     let residual = (e - normals * y).abs().sum() + ROUNDING * (1.0 + y.sum());
     Some((y.dot(&distances) * (1.0 + ROUNDING), residual))
-}
-
-/// Maximiser of c·x over the half-spaces and the cube |x_i| ≤ [`CUBE`], in the first coordinates; `active` gets the
-/// planes that meet there.
-fn maximise(half_spaces: &[HalfSpace], c: [f64; 3], dimensions: usize, active: &mut [usize; 3]) -> [f64; 3] {
-    if dimensions == 1 {
-        let (x, place) = farther_end(half_spaces, c[0]);
-        active[0] = place;
-        return [x, 0.0, 0.0];
-    }
-    let mut x = [0.0; 3];
-    for axis in 0..dimensions {
-        (x[axis], active[axis]) = (CUBE.copysign(c[axis]), OF_CUBE);
-    }
-    for (i, half_space) in half_spaces.iter().enumerate() {
-        let terms = (0..dimensions).map(|axis| half_space.n[axis] * x[axis]);
-        let (excess, size) = terms.fold((-half_space.h, half_space.h.abs()), |(t, s), v| (t + v, s + v.abs()));
-        if excess > UNDECIDED * size {
-            x = maximise_on(half_space, &half_spaces[..i], c, dimensions, active);
-        }
-    }
-    x
-}
-
-/// The same on the plane of one half-space, from which one coordinate follows from the others.
-fn maximise_on(
-    plane: &HalfSpace,
-    earlier: &[HalfSpace],
-    c: [f64; 3],
-    dimensions: usize,
-    active: &mut [usize; 3],
-) -> [f64; 3] {
-    let larger = |i: &usize, j: &usize| plane.n[*i].abs().total_cmp(&plane.n[*j].abs());
-    let gone = (0..dimensions).max_by(larger).unwrap_or(0);
-    let pivot = plane.n[gone];
-    // Without the coordinate: the others move up. A difference of rounding only counts as 0.
-    let reduced = |n: &[f64; 3]| {
-        let (ratio, mut left, mut is_parallel) = (n[gone] / pivot, [0.0; 3], true);
-        for axis in (0..dimensions).filter(|axis| *axis != gone) {
-            let subtracted = ratio * plane.n[axis];
-            left[axis - usize::from(axis > gone)] = n[axis] - subtracted;
-            is_parallel &= (n[axis] - subtracted).abs() <= UNDECIDED * (ratio.abs() + n[axis].abs());
-        }
-        (left, ratio, is_parallel)
-    };
-    let mut rest = Vec::with_capacity(earlier.len() + 2);
-    for sign in [1.0, -1.0] {
-        let mut face = [0.0; 3];
-        face[gone] = sign;
-        let (n, ratio, _) = reduced(&face);
-        rest.push(HalfSpace { n, h: CUBE - ratio * plane.h, place: OF_CUBE });
-    }
-    for other in earlier {
-        let (n, ratio, is_parallel) = reduced(&other.n);
-        if !is_parallel {
-            rest.push(HalfSpace { n, h: other.h - ratio * plane.h, place: other.place });
-        }
-    }
-    let found = maximise(&rest, reduced(&c).0, dimensions - 1, active);
-    active[dimensions - 1] = plane.place;
-    let mut x = [0.0; 3];
-    for axis in (0..dimensions).filter(|axis| *axis != gone) {
-        x[axis] = found[axis - usize::from(axis > gone)];
-    }
-    let others: f64 = (0..dimensions).filter(|axis| *axis != gone).map(|axis| plane.n[axis] * x[axis]).sum();
-    x[gone] = (plane.h - others) / pivot;
-    x
-}
-
-/// The end of an interval of the line to which c points, and the half-space that sets it.
-fn farther_end(half_spaces: &[HalfSpace], c: f64) -> (f64, usize) {
-    let sign = 1f64.copysign(c);
-    let (mut end, mut place) = (CUBE, OF_CUBE);
-    for half_space in half_spaces {
-        let rate = sign * half_space.n[0];
-        if rate > 0.0 && half_space.h < end * rate {
-            (end, place) = (half_space.h / rate, half_space.place);
-        }
-    }
-    (sign * end, place)
-}
-
-/// 0..count in an order that depends on the seed alone (Fisher and Yates, with Marsaglia's 64-bit xorshift).
-fn shuffled(count: usize, seed: u64) -> Vec<usize> {
-    let mut state = 0x9E37_79B9_7F4A_7C15 ^ (seed << 32);
-    let mut order: Vec<usize> = (0..count).collect();
-    for i in (1..count).rev() {
-        state ^= state << 13;
-        state ^= state >> 7;
-        state ^= state << 17;
-        order.swap(i, (state % (i as u64 + 1)) as usize);
-    }
-    order
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 //! | `plane` | one plane as given |
 //! | `error` | why planes and parameters do not make a particle |
 //! | `plane_clusters` | planes in clusters of similar normals, which are skipped as a whole where none is active |
-//! | `linear_program` | whether half-spaces enclose a volume, and how large it is (Seidel's algorithm) |
+//! | `linear_program` | whether half-spaces enclose a volume, and how large it is: the dual simplex method |
 //! | `largest_ball` | the largest ball within half-spaces, by the simplex method |
 //! | `bounding_volumes` | a ball and a polyhedron that hold the particle |
 //! | `cutter`, `polyhedron`, `outlines` | a polyhedron that planes cut, what a plane takes away, and the faces |

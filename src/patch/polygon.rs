@@ -4,6 +4,7 @@ use super::chart::{Flat, Vector, normal, radius};
 use super::field::{Field, Owner};
 use super::ray::{Node, RIM};
 use super::rules::gauss;
+use crate::linalg::polygon::clip;
 
 /// Sides shorter than this part of the polygon are rounding.
 const SHORTEST: f64 = 1e-12;
@@ -77,31 +78,17 @@ pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, c
     let planes = field.planes.iter().enumerate().filter(|(k, _)| !active.contains(k));
     let lines = planes.map(|(k, plane)| (k as u32, level.on(&normal(plane), plane.excess)));
     for (side, line) in lines.chain([(RIM, below)]) {
-        let Some(first) = polygon.first() else { return false };
-        let mut here = linear(&line, &first.at);
-        let mut crosses = here > 0.0;
-        if !crosses {
-            crosses = polygon.iter().any(|corner| linear(&line, &corner.at) > 0.0);
+        if polygon.is_empty() {
+            return false;
         }
-        if !crosses {
+        if !polygon.iter().any(|corner| linear(&line, &corner.at) > 0.0) {
             continue;
         }
-        next.clear();
-        for (k, corner) in polygon.iter().enumerate() {
-            let following = &polygon[(k + 1) % polygon.len()];
-            let there = linear(&line, &following.at);
-            let between = || {
-                let t = here / (here - there);
-                std::array::from_fn(|c| corner.at[c] + t * (following.at[c] - corner.at[c]))
-            };
-            match (here <= 0.0, there <= 0.0) {
-                (true, true) => next.push(*corner),
-                (true, false) => next.extend([*corner, Corner { at: between(), side }]),
-                (false, true) => next.push(Corner { at: between(), side: corner.side }),
-                (false, false) => (),
-            }
-            here = there;
-        }
+        let crossing = |from: &Corner, to: &Corner, part: f64, leads_out: bool| Corner {
+            at: std::array::from_fn(|c| from.at[c] + part * (to.at[c] - from.at[c])),
+            side: if leads_out { side } else { from.side },
+        };
+        clip(polygon, next, |corner| linear(&line, &corner.at), crossing);
         std::mem::swap(polygon, next);
     }
     // Sides without length.

@@ -1,5 +1,6 @@
 //! Convex polygons of a plane.
 
+use crate::linalg::polygon;
 use nalgebra::{Vector2, Vector3};
 
 /// Two unit vectors across a unit normal, which make a right-handed frame with it.
@@ -11,16 +12,7 @@ pub(super) fn axes_across(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
 /// Takes from a convex polygon, corners in order, what lies where a linear function is below 0.
 pub(super) fn clip(corners: &mut Vec<Vector2<f64>>, inside: impl Fn(&Vector2<f64>) -> f64) {
     let mut kept = Vec::with_capacity(corners.len() + 1);
-    for (i, here) in corners.iter().enumerate() {
-        let there = &corners[(i + 1) % corners.len()];
-        let (a, b) = (inside(here), inside(there));
-        if a >= 0.0 {
-            kept.push(*here);
-        }
-        if (a < 0.0) != (b < 0.0) {
-            kept.push(here + a / (a - b) * (there - here));
-        }
-    }
+    polygon::clip(corners, &mut kept, |at| -inside(at), |from, to, part, _| from + part * (to - from));
     *corners = kept;
 }
 
