@@ -121,8 +121,8 @@ check.close(brake(2), 1.0, 0.01, "a spin on 4 blocks")
 
 # --- other bodies beside it, of other materials -----------------------------------------------------------------
 
-# On blocks of different stiffness and restitution each damps by its own, and none pulls: a mass on springs with dashpots
-# side by side.
+# On blocks of different stiffness and restitution each damps by its own, and none pulls: a mass on springs with
+# dashpots side by side.
 def ratio_of(restitution):
     """Of a dashpot to the critical one, below 1."""
     low, high = 0.0, 1.0

@@ -12,10 +12,10 @@
 #include "joint/patch_surface.hpp"
 #include "packing/packing.hpp"
 #include "particle/particle_store.hpp"
+#include "python_bytes.hpp"
 #include "rock/rock.hpp"
 #include "shape/conic_potential_particle.hpp"
 #include "shape/plane_lists.hpp"
-#include "python_bytes.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
