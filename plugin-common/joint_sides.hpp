@@ -88,7 +88,8 @@ public:
         double shares[most] = {};
         bool isAlone = true;
         for (int i = 0; i < count; ++i)
-            if (const double cosine = nearest.cosines[i]; cosine > leastCosine && !(i == nearest.face && faces[i].count == 1)) {
+            if (const double cosine = nearest.cosines[i];
+                cosine > leastCosine && !(i == nearest.face && faces[i].count == 1)) {
                 shares[i] = std::min(1.0, cosine * cosine);
                 isAlone = false;
             }

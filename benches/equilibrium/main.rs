@@ -8,7 +8,7 @@ use potential_particles::equilibrium::{
     Body, Equilibrium, EquilibriumError, Flow, JointStrength, Scene, Velocity, load_factor, stands, strength_factor,
 };
 use potential_particles::nalgebra::Vector3;
-use potential_particles::rock::{Block, JointSet, SliceSettings, slice};
+use potential_particles::rock::{JointSet, SliceSettings, slice};
 use serde_json::{Value, json};
 
 const BOTH: [Flow; 2] = [Flow::Associated, Flow::NonDilatant];
@@ -175,8 +175,11 @@ fn drawn() -> Value {
     };
     let fronts: Vec<_> = wall.bodies.iter().map(front).collect();
     let (mass, slope) = random_rock(30, 60.0);
-    let outline = |block: &Block| block.faces.iter().map(move |face| block.corners_of(face).to_vec());
-    let outlines: Vec<Vec<Vec<_>>> = mass.blocks.iter().map(|block| outline(block).collect()).collect();
+    let outlines: Vec<Vec<Vec<_>>> = mass
+        .blocks
+        .iter()
+        .map(|block| block.faces.iter().map(|face| block.corners_of(face).to_vec()).collect())
+        .collect();
     json!({
         "wall": at_limit("load factor", &wall, &fronts, |flow| load_factor(&wall, flow)),
         "slope": at_limit("factor of safety", &slope, &outlines, |flow| strength_factor(&slope, flow)),

@@ -23,6 +23,8 @@ def mesh(count, width):
             for triangle in (((a, b, c), (a, c, d)) if draw.random() < 0.5 else ((a, b, d), (b, c, d)))]
 
 
+# Without dashpots nothing takes away what the advised step adds: 1.1 % at most in 80 such landings.
+NOTHING, OF_THE_STEP = 1e-4, 0.03
 worst = 0.0
 for number in range(int(os.environ.get("LANDINGS", 4))):
     restitution = draw.choice((0.01, 0.05, 1.0, draw.uniform(0.01, 1), draw.uniform(0.01, 1)))
@@ -48,7 +50,8 @@ for number in range(int(os.environ.get("LANDINGS", 4))):
     what = f"number {number} of seed {seed}, on {2 * count**2} triangles, restitution {restitution}"
     worst = max(worst, energy() / start)
     check.true(met, f"it lands: {what}")
-    check.true(energy() < start * (1 + 1e-4), f"energy {energy() / start}: {what}")
+    allowed = NOTHING if restitution < 1 else OF_THE_STEP
+    check.true(energy() < start * (1 + allowed), f"energy {energy() / start}: {what}")
 print(f"seed {seed}: largest energy over that of the start {worst}")
 
 check.finish()

@@ -121,6 +121,44 @@ check.close(brake(2), 1.0, 0.01, "a spin on 4 blocks")
 
 # --- other bodies beside it, of other materials -----------------------------------------------------------------
 
+# On blocks of different stiffness and restitution each damps by its own, and none pulls: a mass on springs with
+# dashpots side by side.
+def ratio_of(restitution):
+    """Of a dashpot to the critical one, below 1."""
+    low, high = 0.0, 1.0
+    for _ in range(60):
+        z = 0.5 * (low + high)
+        w = math.sqrt(1 - z * z)
+        left = math.exp(-z / w * math.atan2(2 * z * w, 2 * z * z - 1))
+        low, high = (z, high) if left > restitution else (low, z)
+    return z
+
+
+def left_by(springs):
+    """Speed after over speed before of a unit mass; springs: pairs of stiffness and ratio."""
+    frequency = math.sqrt(sum(stiffness for stiffness, _ in springs))
+    depth, speed, step = 0.0, 1.0, 1e-4 / frequency
+    while depth > 0 or speed > 0:
+        speed -= step * sum(max(0.0, k * (depth + 2 * z / frequency * speed)) for k, z in springs)
+        depth += step * speed
+    return -speed
+
+
+for first, second in ((0.9, 0.3), (0.3, 0.3), (0.95, 0.2)):
+    scene(restitution=1.0)
+    floor(2)
+    body = block(1e-6)
+    for number, of in enumerate((first, second, second, first)):
+        O.bodies[number].mat = yade.ConicJointMat(normalStiffness=(1 if number in (0, 3) else 4) * STIFFNESS,
+                                                  shearStiffness=STIFFNESS, frictionAngle=0.0, restitution=of)
+    body.state.blockedDOFs, body.state.vel = "xyXYZ", Vector3(0, 0, -0.01)
+    O.dt = 0.003 / math.sqrt(STIFFNESS / body.state.mass)
+    while (body.state.vel[2] < 0 or O.interactions.countReal()) and O.iter < 10000:
+        run(20)
+    # Harmonic means with the block's own stiffness: 1 and 1.6 times that.
+    expected = left_by([(1.0, ratio_of(first)), (1.6, ratio_of(second))])
+    check.close(body.state.vel[2] / 0.01, expected, 0.01 * expected, f"on blocks of {first} and {second}")
+
 # A block between two walls swings on both: its dashpots are those of that motion.
 scene(restitution=0.5)
 O.bodies.append(utils.wall((0, 0, 0), axis=2, sense=1))

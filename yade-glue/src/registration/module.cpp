@@ -11,9 +11,9 @@
 #include "joint/joints_in_step.hpp"
 #include "joint/patch_surface.hpp"
 #include "particle/particle_store.hpp"
+#include "python_bytes.hpp"
 #include "shape/conic_potential_particle.hpp"
 #include "shape/plane_lists.hpp"
-#include "python_bytes.hpp"
 
 #include <boost/archive/basic_archive.hpp>
 #include <boost/python/def.hpp>
