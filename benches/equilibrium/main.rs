@@ -175,7 +175,7 @@ fn drawn() -> Value {
     };
     let fronts: Vec<_> = wall.bodies.iter().map(front).collect();
     let (mass, slope) = random_rock(30, 60.0);
-    let outlines: Vec<Vec<Vec<_>>> = mass
+    let outlines: Vec<Faces> = mass
         .blocks
         .iter()
         .map(|block| block.faces.iter().map(|face| block.corners_of(face).to_vec()).collect())
@@ -186,11 +186,14 @@ fn drawn() -> Value {
     })
 }
 
+/// Polygons of a body.
+type Faces = Vec<Vec<Vector3<f64>>>;
+
 /// For both flows: faces, velocities, forces at corners and the use of friction.
 fn at_limit(
     name: &str,
     scene: &Scene,
-    faces: &[Vec<Vec<Vector3<f64>>>],
+    faces: &[Faces],
     ask: impl Fn(Flow) -> Result<Equilibrium, EquilibriumError>,
 ) -> Value {
     let list = |v: Vector3<f64>| <[f64; 3]>::from(v);
@@ -199,7 +202,7 @@ fn at_limit(
         let used = scene.contacts.iter().zip(&found.contacts);
         let used: Vec<f64> = used.flat_map(|(contact, of)| vec![of.used; contact.corners.len()]).collect();
         let corners: Vec<_> = scene.contacts.iter().flat_map(|contact| &contact.corners).map(|at| list(*at)).collect();
-        let body = |((body, faces), velocity): ((&Body, &Vec<Vec<Vector3<f64>>>), &Velocity)| {
+        let body = |((body, faces), velocity): ((&Body, &Faces), &Velocity)| {
             let faces: Vec<Vec<_>> = faces.iter().map(|face| face.iter().map(|at| list(*at)).collect()).collect();
             json!({"centre": list(body.centre), "faces": faces, "held": body.held,
                 "linear": list(velocity.linear), "angular": list(velocity.angular)})
