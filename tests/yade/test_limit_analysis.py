@@ -60,7 +60,8 @@ for kind in ("particle", "wall", "facet", "box"):
     check.equal(O.iter, steps, f"{kind}: no step is made")
     block_on(kind, friction=0.3, joints=kind != "box")
     check.close(limit_analysis("load", push=(0, -1, 0)).factor, 0.3, 1e-5, f"{kind}: it slides")
-    check.true(limit_analysis().stands, f"{kind}: it stands")
+    check.close(limit_analysis("strength", push=(0, 0.1, 0)).factor, 3.0, 1e-4, f"{kind}: strength under a push")
+    check.true(limit_analysis().stands and not limit_analysis(push=(0, 0.4, 0)).stands, f"{kind}: it stands")
     block_on(kind, friction=0.6, angle=0.2, joints=kind != "box")
     check.close(limit_analysis("strength").factor, 0.6 / math.tan(0.2), 1e-4, f"{kind}: factor of safety")
 
@@ -110,12 +111,13 @@ held = np.ptp(limit_analysis().corners, axis=0)
 check.true(held[0] > 24.0, f"the point of a triangle of 25 is at {held[0]:.4g}")
 
 # By simulation: a block on a slope, and one that is pushed until it slides.
-for question, angle, expected in (("strength", 0.3, 0.6 / math.tan(0.3)), ("load", 0.0, 0.6)):
+for question, angle, push, expected in (("strength", 0.3, None, 0.6 / math.tan(0.3)), ("load", 0.0, (1, 0, 0), 0.6),
+                                        ("strength", 0.0, (0.3, 0, 0), 2.0)):
     block_on(friction=0.6, angle=angle, height=0.3, restitution=0.1)
     O.dt = 0.5 * potential_particles.critical_time_step()
     O.run(int(0.3 / O.dt), wait=True)
     place = Vector3(O.bodies[1].state.pos)
-    found = potential_particles.factor_by_simulation(question, push=(1, 0, 0), tolerance=0.03, progress=False)
+    found = potential_particles.factor_by_simulation(question, push=push, tolerance=0.03, progress=False)
     check.true(found.stands < expected < found.falls and found.falls - found.stands < 0.03 * found.falls,
                f"{question} by simulation: {found} for {expected:.4f}")
     check.equal(O.bodies[1].state.pos, place, f"{question}: the scene is as it was")

@@ -38,9 +38,10 @@ def factor_by_simulation(question="strength", push=None, first=None, tolerance=0
     each starts there, brings the factor on in steps, and goes on until all bodies rest or one has moved by 2 % of its
     size. The bracket is halved until its ends differ by less than tolerance, a part of the factor.
 
-    push: (3,), as of limit_analysis(). first: the factor to begin with; by default that of limit_analysis(). patience:
-    the longest run, over sqrt(size / g) of the largest body; a run that neither rests nor falls until then is
-    undecided, and counts for neither. Steps are O.dt. Ctrl-C ends the search, and the bracket so far is returned.
+    push: (3,), as of limit_analysis(): the load, or what is there while strength falls. first: the factor to begin with;
+    by default that of limit_analysis(). patience: the longest run, over sqrt(size / g) of the largest body; a run that
+    neither rests nor falls until then is undecided, and counts for neither. Steps are O.dt. Ctrl-C ends the search, and
+    the bracket so far is returned.
     Joints of finite stiffness are weaker: a wall that leans on K N/m^3 by some (N/K)^(1/3), so that two stiffnesses are
     to be compared (docs/equilibrium.md).
 
@@ -126,11 +127,12 @@ def _run(question, factor, direction, patience):
 
     before = 1.0
     for part in range(1, PARTS + 1):
-        if question == "load":
+        if direction.any():
+            pushed = (factor if question == "load" else 1.0) * part / PARTS
             for body in bodies:
-                along = body.state.mass * gravity * factor * part / PARTS
+                along = body.state.mass * gravity * pushed
                 omega.forces.setPermF(body.id, given[body.id] + yade.Vector3(*(along * direction)))
-        else:
+        if question == "strength":
             now = 1.0 + (factor - 1.0) * part / PARTS
             _weaken(omega, now / before)
             before = now
