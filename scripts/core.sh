@@ -8,4 +8,4 @@ PROFILE=${PROFILE:-release}
 build=$(realpath -m "${CARGO_TARGET_DIR:-target}")/maturin
 # Not linked to a Python: that which imports it has the functions.
 PYO3_BUILD_EXTENSION_MODULE=1 cargo build --quiet --locked --profile "$PROFILE" --manifest-path python/Cargo.toml --target-dir "$build"
-echo "$build/$PROFILE/lib_core.so"
+echo "$build/${PROFILE/#dev/debug}/lib_core.so"

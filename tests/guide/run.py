@@ -72,7 +72,8 @@ def run_cmake(block, scratch):
     Path(scratch, "CMakeLists.txt").write_text(
         f"cmake_minimum_required(VERSION 3.18)\nproject(guide C)\nadd_executable(mine {TOP}/examples/c/one_pair.c)\n{block.code}"
         "target_link_libraries(mine m)\n")
-    return (call(["make", "install", f"PREFIX={installed}"], TOP, env={**os.environ, "PROFILE": "dev"})
+    built = {"PROFILE": "dev", "CORE": str(RELEASE.parent / "maturin" / "release" / "lib_core.so")}
+    return (call(["make", "install", f"PREFIX={installed}"], TOP, env={**os.environ, **built})
             or call(["cmake", "-S", ".", "-B", "build", f"-DCMAKE_PREFIX_PATH={installed}"], scratch)
             or call(["cmake", "--build", "build"], scratch) or call(["build/mine"], scratch))
 
