@@ -43,6 +43,11 @@ check.equal(tools.SERVE & set(tools.SILENT), set(), "each once")
 laws = yade.system.childClasses("LawFunctor")
 check.true(tools.TRIED_LAWS <= set(laws), "the laws that were tried are there")
 
+# Functors of YADE that take our shapes for their base.
+based = {name for kind in ("BoundFunctor", "IGeomFunctor") for name in yade.system.childClasses(kind)
+         if "Conic" not in name and "PotentialParticle" in getattr(yade.wrapper, name)().bases}
+check.equal(based, {"PotentialParticle2AABB", "Ig2_PP_PP_ScGeom"}, "one serves, and check() names the other")
+
 scene()
 check.equal(said(), [], "a scene that is right")
 for name in sorted(tools.SILENT):
@@ -175,4 +180,6 @@ lower, upper = potential_particles.extrema([O.bodies[one]])
 check.close(0.5 * (lower + upper), O.bodies[one].state.pos, 1e-9, "extrema takes bodies, too")
 stone = shapes.cuboid((1, 1, 1), rounding=0.05)
 check.raises(ValueError, lambda: potential_particles.body(stone, postion=(0, 0, 0)), "mistyped", "did you mean position?")
+check.raises(TypeError, lambda: O.bodies.append(stone), "a shape is no body", "potential_particles.body(shape")
+check.raises(TypeError, lambda: O.bodies.append(3), "nor is a number", "did not match C++ signature")
 check.finish()

@@ -2,10 +2,28 @@
 """YADE bodies made of shapes; what moves a body and with it, its size, and where
 its periodic image is."""
 import difflib
+import functools
 import inspect
 import math
 
 from .arguments import number, unit_quaternion, vector
+
+
+def guard_append(container):
+    """O.bodies.append of a shape names body(), where YADE lists the types of its arguments."""
+    import yade
+    from .shape import Shape
+    append = container.append
+
+    @functools.wraps(append)
+    def appended(self, *arguments, **keywords):
+        shape = arguments and isinstance(arguments[0], (Shape, yade.Shape)) and type(arguments[0]).__name__
+        if shape:
+            raise TypeError(f"O.bodies.append takes bodies, and this is a {shape}: "
+                            "make one by potential_particles.body(shape, position=...)")
+        return append(self, *arguments, **keywords)
+
+    container.append = appended
 
 
 def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), fixed=False, color=None,

@@ -29,9 +29,9 @@ Before they are registered, the classes of the YADE that runs are compared with 
 that differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits and was
 never tested is taken, with a warning of one line.
 
-Of YADE's own classes the import replaces four functions, which do as before: O.run and O.step look our functors up
-(prepare) and warn of what check() finds, for which Body.shape notices a change, and O.load says what to do about a
-scene of another YADE. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by
+Of YADE's own classes the import replaces five functions, which do as before: O.run and O.step look our functors up
+(prepare) and warn of what check() finds, for which Body.shape notices a change, O.load says what to do about a scene of
+another YADE, and O.bodies.append what to do with a shape. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by
 our functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
@@ -39,7 +39,7 @@ import functools
 import sys
 
 from . import __version__, _core, builds, window
-from .bodies import body
+from .bodies import body, guard_append
 from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
 from .lammps import to_lammps
@@ -262,6 +262,7 @@ def _load():
     from . import outside, saves
     outside.guard_lists(yade, glue.set_list)
     saves.guard(yade, glue.archive_version, running)
+    guard_append(yade.wrapper.BodyContainer)
     return glue
 
 
