@@ -179,11 +179,9 @@ impl Memory {
 
 /// Pairs as they are, if they are whole numbers of 32 bits in memory one after the other, else as numpy makes them so.
 fn pair_rows<'py>(pairs: &Bound<'py, PyAny>) -> PyResult<PyReadonlyArray2<'py, u32>> {
-    if let Ok(array) = pairs.cast::<PyArray2<u32>>()
-        && array.shape()[1] == 2
-        && array.is_c_contiguous()
-        && !array.is_empty()
-    {
+    let in_place =
+        |array: &&Bound<'py, PyArray2<u32>>| array.shape()[1] == 2 && array.is_c_contiguous() && !array.is_empty();
+    if let Some(array) = pairs.cast::<PyArray2<u32>>().ok().filter(in_place) {
         let array = read(array, "pairs")?;
         // Of a part of a buffer it may begin anywhere.
         if array.as_slice().is_ok() {

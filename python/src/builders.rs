@@ -87,7 +87,9 @@ fn built(
     }
     let rounding = match (share, r) {
         (Some(share), Some(r)) => {
-            return Err(refused(format!("rounding={share:?} and r={r:?} both give the rounding radius: leave out one")));
+            return Err(refused(format!(
+                "rounding={share:?} and r={r:?} both give the rounding radius: leave out one"
+            )));
         }
         (None, Some(r)) => Rounding::of_radius(r, k),
         (Some(share), None) => Rounding::new(share, k),
@@ -99,7 +101,9 @@ fn built(
         if shape.particle.bounding_radius() >= (1.0 - 1e-9) * end {
             let told = format!(
                 "R={shadow_radius:?}: a sphere of radius R/sqrt(k)={end:.6} cuts off what lies beyond; leave R out, or \
-                 take a larger one", shadow_radius = shadow_radius.unwrap_or_default());
+                 take a larger one",
+                shadow_radius = shadow_radius.unwrap_or_default()
+            );
             let told = CString::new(told).unwrap_or_default();
             PyErr::warn(py, &py.get_type::<PyUserWarning>(), &told, 1)?;
         }

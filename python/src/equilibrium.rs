@@ -24,9 +24,7 @@ fn raised(error: EquilibriumError) -> PyErr {
     match error {
         EquilibriumError::NotConverged { .. }
         | EquilibriumError::Undecided { .. }
-        | EquilibriumError::NotFound { .. } => {
-            PyRuntimeError::new_err(error.to_string())
-        }
+        | EquilibriumError::NotFound { .. } => PyRuntimeError::new_err(error.to_string()),
         _ => refused(error),
     }
 }
@@ -74,7 +72,8 @@ impl OfJoints {
 fn coefficient(friction: &f64) -> PyResult<()> {
     if *friction > STEEPEST {
         let tangent = friction.to_radians().tan();
-        let said = format!("friction={friction} is a coefficient, tan of the angle: {friction} degrees are {tangent:.4}");
+        let said =
+            format!("friction={friction} is a coefficient, tan of the angle: {friction} degrees are {tangent:.4}");
         return Err(refused(said));
     }
     Ok(())
@@ -192,7 +191,11 @@ impl PyScene {
             return Err(refused(format!("body={body}: the scene has {count} bodies")));
         };
         let load = Load::at(place.into(), force.into(), of.centre);
-        if live { of.live.add(1.0, &load) } else { of.dead.add(1.0, &load) }
+        if live {
+            of.live.add(1.0, &load)
+        } else {
+            of.dead.add(1.0, &load)
+        }
         Ok(())
     }
 

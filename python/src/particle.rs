@@ -18,10 +18,11 @@ pub struct PyParticle(pub Particle);
 
 /// Rows (a, b, c, d), or normals (n, 3) and offsets (n,).
 pub fn planes(given: &Bound<'_, PyAny>) -> PyResult<Vec<Plane>> {
-    if let Ok((normals, offsets)) = given.extract::<(Bound<'_, PyAny>, Bound<'_, PyAny>)>()
-        && let Ok(offsets) = offsets.extract::<Vec<f64>>()
-        && let Ok(normals) = rows::<3>(&normals, "normals", "three numbers a, b, c")
-    {
+    let pair = |(normals, offsets): (Bound<'_, PyAny>, Bound<'_, PyAny>)| {
+        let normals = rows::<3>(&normals, "normals", "three numbers a, b, c").ok()?;
+        Some((normals, offsets.extract::<Vec<f64>>().ok()?))
+    };
+    if let Some((normals, offsets)) = given.extract().ok().and_then(pair) {
         if normals.len() != offsets.len() {
             return Err(refused(format!(
                 "{} normals and {} offsets: as many are needed",
