@@ -25,7 +25,7 @@ from harness import *
 check = Checks()
 ours = potential_particles._glue.class_names
 replaced = {name for name, value in attributes().items() if before.get(name) is not value and name[0] not in ours}
-check.equal(replaced, {("Body", "shape")} | {("Omega", name)
+check.equal(replaced, {("Body", "shape"), ("BodyContainer", "append")} | {("Omega", name)
                                              for name in ("run", "step", "load")}
             | {("PotentialParticle", name)
                for name in ("a", "b", "c", "d", "vertices", "updateAttrs")}, "what the import replaces or adds")

@@ -75,7 +75,7 @@ def lost_spins(scene, moving):
     """
     if getattr(scene, "splittedOnce", False):
         return
-    if not any(engine.exactAsphericalRot and getattr(engine, "rotAlgorithm", "Fincham1992") == "Fincham1992"
+    if not any(engine.exactAsphericalRot and str(getattr(engine, "rotAlgorithm", "Fincham1992")) == "Fincham1992"
                for engine in scene.engines if type(engine).__name__ == "NewtonIntegrator" and not engine.dead):
         return
     lost = [body.id for body in moving if body.aspherical and body.state.angVel.norm() > 0.0
