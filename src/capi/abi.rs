@@ -2,7 +2,6 @@
 
 use super::builder::pp_built;
 use super::derivative::{pp_derivatives, pp_shape_gradient};
-use super::equilibrium::{pp_equilibrium_result, pp_rigid_body, pp_rigid_contact};
 use super::patch::{pp_patch, pp_patch_state};
 use super::patch_derivatives::pp_patch_derivatives;
 use super::planar::{pp_area_properties, pp_patch_2d, pp_pose_2d};
@@ -57,7 +56,7 @@ sizes! {
     pp_pose, pp_settings, pp_contact, pp_closest, pp_mass_properties, pp_pose_2d, pp_contact_2d, pp_closest_2d,
     pp_area_properties, pp_flat_contact, pp_pair_state, pp_patch, pp_patch_point, pp_patch_2d, pp_patch_point_2d,
     pp_patch_state, pp_derivatives, pp_contact_weights, pp_shape_gradient, pp_pose_gradient, pp_patch_derivatives,
-    pp_built, pp_rigid_body, pp_rigid_contact, pp_equilibrium_result,
+    pp_built,
 }
 
 /// Size in bytes of a struct as the loaded library knows it, by its name ("pp_contact"), to be compared with

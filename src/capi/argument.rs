@@ -1,7 +1,6 @@
 //! What a pointer that a function of C is given stands for: every kind is checked and converted here alone.
 
 use super::convert::{pose_in_plane, pose_in_space};
-use super::equilibrium::{pp_rigid_body, pp_rigid_contact};
 use super::particle::pp_particle;
 use super::planar::{pp_particle_2d, pp_pose_2d};
 use super::status::*;
@@ -144,8 +143,6 @@ pub(super) trait Element {}
 impl<T> Element for *const T {}
 impl Element for pp_pose {}
 impl Element for pp_pose_2d {}
-impl Element for pp_rigid_body {}
-impl Element for pp_rigid_contact {}
 
 /// An array, which may be NULL when it has no elements.
 impl<'a, T: Element> Argument<&'a [T]> for (*const T, usize) {

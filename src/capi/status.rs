@@ -65,9 +65,6 @@ pub const PP_TOO_MANY_PLANES: pp_status = 27;
 /// The particle reaches less than 1e-30 or more than 1e30 from its centre.
 pub const PP_BAD_SIZE: pp_status = 28;
 
-/// Limit analysis has no answer for this scene; the message says why.
-pub const PP_BAD_EQUILIBRIUM: pp_status = 32;
-
 /// Every code with its sentence; pp_status_message and the tests read this one table.
 const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_OK, c"success"),
@@ -107,7 +104,6 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_UNBOUNDED, c"with k = 0 the planes must enclose a bounded volume"),
     (PP_TOO_MANY_PLANES, c"more planes than PP_MAX_PLANES"),
     (PP_BAD_SIZE, c"the particle reaches less than 1e-30 or more than 1e30 from its centre: take another unit of length"),
-    (PP_BAD_EQUILIBRIUM, c"limit analysis has no answer for this scene; the message of pp_equilibrium says why"),
 ];
 
 /// The sentence of a status code, if it is one.

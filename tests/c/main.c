@@ -40,6 +40,5 @@ int main(int count, char **arguments) {
     test_patch();
     test_derivatives();
     test_builder();
-    test_equilibrium();
     return check_report();
 }

@@ -34,7 +34,6 @@ static const struct {
     {PP_UNBOUNDED, 26},
     {PP_TOO_MANY_PLANES, 27},
     {PP_BAD_SIZE, 28},
-    {PP_BAD_EQUILIBRIUM, 32},
 };
 enum { CODES = sizeof codes / sizeof codes[0] };
 

@@ -23,6 +23,5 @@ void test_planar_closest(void);
 void test_patch(void);
 void test_derivatives(void);
 void test_builder(void);
-void test_equilibrium(void);
 
 #endif

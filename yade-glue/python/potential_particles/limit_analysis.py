@@ -2,17 +2,17 @@
 """Limit analysis of the scene as it stands: does it stand, how much more could it bear, how much weaker could its
 joints be? On elastic joints (docs/equilibrium.md), without a step.
 """
-import ctypes
 import dataclasses
 import math
 
 import numpy as np
 
-from . import library
+from ._core import _equilibrium
 from .arguments import vector
 from .bodies import is_free, lasting, owner, size_of
 
-QUESTIONS = {"stands": 0, "load": 1, "strength": 2}
+# By what a Scene answers each.
+QUESTIONS = {"stands": "stands", "load": "load_factor", "strength": "strength_factor"}
 # A face touches where its normal is within this angle of that of the contact, radians.
 FLAT = 0.02
 # Corners nearer to each other than this, over the size of the polygon, are one.
@@ -25,22 +25,12 @@ SOFT = 1e-6
 NOTHING = 1e-6
 
 
-class Body(ctypes.Structure):
-    _fields_ = [(name, ctypes.c_double * 3)
-                for name in ("centre", "dead_force", "dead_torque", "live_force", "live_torque")]
-    _fields_ += [("held", ctypes.c_uint64)]
+class Body:
+    """A rigid body: centre of mass, dead and live force and torque about it, (3,) each; held: it does not move."""
 
-
-class _Contact(ctypes.Structure):
-    _fields_ = [("bodies", ctypes.c_uint64 * 2), ("corner_count", ctypes.c_uint64), ("normal", ctypes.c_double * 3)]
-    _fields_ += [(name, ctypes.c_double) for name in ("area", "friction", "cohesion", "tension")]
-    _fields_ += [("stiffness", ctypes.c_double * 2), ("initial", ctypes.c_double * 3)]
-
-
-class _Result(ctypes.Structure):
-    _fields_ = [("stands", ctypes.c_uint32), ("may_stand", ctypes.c_uint32)]
-    _fields_ += [(name, ctypes.c_double) for name in ("factor", "bound", "unbalanced", "excess", "largest")]
-    _fields_ += [("solves", ctypes.c_uint64)]
+    def __init__(self, held):
+        self.held = held
+        self.centre, self.dead_force, self.dead_torque, self.live_force, self.live_torque = np.zeros((5, 3))
 
 
 @dataclasses.dataclass(frozen=True, repr=False)
@@ -120,21 +110,23 @@ def solved(question, dilatant, bodies, names, rows, pairs):
         for body in bodies:
             for dead, live in ((body.dead_force, body.live_force), (body.dead_torque, body.live_torque)):
                 dead[:], live[:] = [one + other for one, other in zip(dead, live)], (0.0, 0.0, 0.0)
-    contacts = (_Contact * len(rows))()
-    for row, (of, normal, (friction, cohesion, tension), corners, area, stiffness) in zip(contacts, rows):
-        row.bodies[:], row.normal[:], row.stiffness[:] = of, normal, stiffness
-        row.corner_count, row.area = len(corners), area
-        row.friction, row.cohesion, row.tension = friction, cohesion, tension
+    scene = _equilibrium.Scene()
+    for one in bodies:
+        scene.add_body(one.centre, held=one.held, force=one.dead_force, torque=one.dead_torque,
+                       live_force=one.live_force, live_torque=one.live_torque)
+    for of, normal, (friction, cohesion, tension), corners, area, stiffness in rows:
+        scene.add_contact(*of, corners, normal, friction=friction, cohesion=cohesion, tension=tension, area=area,
+                          stiffness=stiffness)
+    found = getattr(scene, QUESTIONS[question])(dilatant=bool(dilatant))
+    # No rows of what does not exist.
+    corners, forces, velocities = scene.corners, np.zeros((len(scene.corners), 3)), np.zeros((len(bodies), 6))
+    forces[:len(found.forces)], velocities[:len(found.mechanism)] = found.forces, found.mechanism
     counts = [len(one[3]) for one in rows]
-    corners = np.ascontiguousarray(np.vstack([one[3] for one in rows]))
-    result, forces, velocities = _Result(), np.zeros_like(corners), np.zeros((len(bodies), 6))
-    library.refuse("pp_equilibrium", ctypes.c_uint32(QUESTIONS[question]), ctypes.c_uint32(bool(dilatant)),
-                   (Body * len(bodies))(*bodies), len(bodies), contacts, len(rows), corners, len(corners),
-                   ctypes.byref(result), forces, velocities)
-    return Equilibrium(question, bool(result.stands), bool(result.may_stand), result.factor, result.bound, pairs, corners,
-                       np.repeat(np.arange(len(rows)), counts), forces,
-                       {name: (row[:3], row[3:]) for name, row in zip(names, velocities)}, result.unbalanced,
-                       result.excess, result.largest, int(result.solves), _used(rows, np.split(forces, np.cumsum(counts)[:-1])))
+    return Equilibrium(question, found.stands, found.may_stand, found.factor, found.bound, pairs, corners,
+                       scene.contact_of_corner.astype(int), forces,
+                       {name: (row[:3], row[3:]) for name, row in zip(names, velocities)}, found.unbalanced,
+                       found.excess, found.largest, found.solves,
+                       _used(rows, np.split(forces, np.cumsum(counts)[:-1])))
 
 
 def _used(rows, forces):
