@@ -71,15 +71,6 @@
 // PP_ABI_VERSION.
 #define PP_ABI_VERSION 3
 
-// Question of pp_equilibrium: do forces exist that hold all bodies?
-#define PP_STANDS 0
-
-// Question of pp_equilibrium: the largest multiple of the live loads that can be borne.
-#define PP_LOAD_FACTOR 1
-
-// Question of pp_equilibrium: the factor of safety on friction and cohesion.
-#define PP_STRENGTH_FACTOR 2
-
 // The point on the boundary lies on the plane, or inside the triangle.
 #define PP_ON_INTERIOR 0
 
@@ -491,66 +482,6 @@ typedef struct pp_flat_contact {
     double on_particle[3];
 } pp_flat_contact;
 
-// A rigid body; torques are about its centre.
-typedef struct pp_rigid_body {
-    // Centre of mass.
-    double centre[3];
-    // Force that is there.
-    double dead_force[3];
-    // Torque that is there.
-    double dead_torque[3];
-    // Force that the load factor multiplies.
-    double live_force[3];
-    // Torque that it multiplies.
-    double live_torque[3];
-    // 1: it carries whatever comes, and does not move.
-    uint64_t held;
-} pp_rigid_body;
-
-// A polygon, a line or a point on which two bodies touch.
-typedef struct pp_rigid_contact {
-    // Indices of the bodies.
-    uint64_t bodies[2];
-    // How many of the corners are its own: 1 or more, in their order about it.
-    uint64_t corner_count;
-    // From the first body to the second, of any length.
-    double normal[3];
-    // On which cohesion and tension act.
-    double area;
-    // Coefficient of friction.
-    double friction;
-    // Shear strength without pressure, a stress.
-    double cohesion;
-    // Tensile strength, a stress.
-    double tension;
-    // Along the normal and across it, force per volume: ratios count alone. 0 and 0: 1 and 1.
-    double stiffness[2];
-    // Initial stress on the second body: p times the normal where the contact is pressed by p.
-    double initial[3];
-} pp_rigid_contact;
-
-// What pp_equilibrium finds.
-typedef struct pp_equilibrium_result {
-    // 1: the bodies come to rest (for a factor: with any factor). 0: velocities are those of the motion.
-    uint32_t stands;
-    // 1: forces within the strength that hold the bodies exist, where joints open by the tangent of the
-    // friction angle as they slip.
-    uint32_t may_stand;
-    // The load factor or the factor of safety; 0 for PP_STANDS and where nothing stands.
-    double factor;
-    // Its bound from above, of joints that open as they slip: infinite without a limit, NaN if it was not
-    // found.
-    double bound;
-    // The largest force, or torque over the size of the body, that is left on a body, over the mean load.
-    double unbalanced;
-    // The largest friction beyond its strength at a point, over the mean load.
-    double excess;
-    // The largest force of a contact over the mean load: far above 1 where blocks clamp each other.
-    double largest;
-    // Number of matrices that were factorised, or of cone programs.
-    uint64_t solves;
-} pp_equilibrium_result;
-
 // What one ordered pair (A, B), or a particle A and a flat boundary, keeps of its patch. While no point of it
 // has moved by more than 0.3 sqrt(tolerance) of the largest depth, the next ones follow from it without an
 // integral.
@@ -860,9 +791,6 @@ typedef struct pp_area_properties {
 // The particle reaches less than 1e-30 or more than 1e30 from its centre.
 #define PP_BAD_SIZE 28
 
-// Limit analysis has no answer for this scene; the message says why.
-#define PP_BAD_EQUILIBRIUM 32
-
 #ifdef __cplusplus
 extern "C" {
 #endif // __cplusplus
@@ -1086,37 +1014,6 @@ pp_status pp_flat_contact_gradient(const struct pp_particle *a,
                                    struct pp_shape_gradient *shape,
                                    struct pp_pose_gradient *poses,
                                    uint32_t *flags);
-
-// Limit analysis of rigid bodies on elastic joints: forces at the corners of their contacts that keep each
-// free body in equilibrium, |t| <= friction n + cohesion a and n >= -tension a, a a share of the area; and how
-// the bodies move at the limit.
-//
-// question: PP_STANDS, PP_LOAD_FACTOR or PP_STRENGTH_FACTOR. dilatant: 0: joints slip along themselves, in
-// the state that loads lead to from nothing; 1: they open by the tangent of the friction angle as they slip,
-// which bounds the factor from above.
-// corners: rows of x, y, z, those of the first contact first; corner_count: of all contacts.
-// result: receives the answer. forces: receives rows of x, y, z: the force on the second body of its
-// contact at each corner, 0 where nothing stands (may be NULL). velocities: receives six numbers for each
-// body, linear and angular, the fastest corner at 1; 0 for PP_STANDS of what stands (may be NULL).
-// message: receives, on failure, a sentence that names the body, contact or value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_BAD_EQUILIBRIUM, PP_BAD_SETTING (an unknown question, held or dilatant other
-// than 0 and 1), PP_BAD_INDEX (corners that are not as many as the contacts have), PP_SOLVER_FAILED (it may
-// stand or fall), PP_NO_CONE_PROGRAM.
-// Pointers: bodies points to body_count, contacts to contact_count structs, corners to 3*corner_count
-// doubles, forces is NULL or valid for as many, velocities for 6*body_count, message for message_size bytes.
-pp_status pp_equilibrium(uint32_t question,
-                         uint32_t dilatant,
-                         const struct pp_rigid_body *bodies,
-                         size_t body_count,
-                         const struct pp_rigid_contact *contacts,
-                         size_t contact_count,
-                         const double *corners,
-                         size_t corner_count,
-                         struct pp_equilibrium_result *result,
-                         double *forces,
-                         double *velocities,
-                         char *message,
-                         size_t message_size);
 
 // Finds the contact of particle A at pose_a with the plane through a point (world frame) with this normal
 // (of any length). A may touch it from either side; where its centre lies on the plane to rounding, A counts
