@@ -23,6 +23,7 @@ import matplotlib
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt
 import numpy as np
+import potential_particles
 import yade
 from potential_particles import Recorder
 from potential_particles.output.drawn import ShapeMeshes, copies, floor
@@ -124,7 +125,7 @@ def draw(path, states, heap):
     """The panels of the paper's Fig. 3; colour tells the layer in which a body started."""
     layers = heap.grid.layers
     colours = matplotlib.colormaps["viridis"](np.linspace(0.12, 0.9, layers[-1] + 1))[:, :3][layers]
-    mesh, (width, height) = ShapeMeshes(MESH_TOLERANCE).of(heap.shape.particle()), PANEL_PIXELS
+    mesh, (width, height) = ShapeMeshes(MESH_TOLERANCE).of(potential_particles.conic_particle(heap.shape)), PANEL_PIXELS
     ends = [positions + side * axis for _, positions, _ in states for side in (-1, 1)
             for axis in reach(heap.shape) * np.eye(3)]
     view = framing_view(np.vstack(ends), VIEW_FROM, VIEW_ANGLE, width / height)

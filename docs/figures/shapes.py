@@ -26,7 +26,7 @@ def surface(shape):
     i = np.arange(DIRECTIONS) + 0.5
     z, turn = 1.0 - 2.0 * i / DIRECTIONS, i * np.pi * (3.0 - np.sqrt(5.0))
     directions = np.column_stack([np.sqrt(1 - z**2) * np.cos(turn), np.sqrt(1 - z**2) * np.sin(turn), z])
-    lengths = np.array(shape.particle().surfaceDistance([Vector3(*one) for one in directions]))
+    lengths = np.array(potential_particles.conic_particle(shape).surfaceDistance([Vector3(*one) for one in directions]))
     points = directions * lengths[:, None]
     return points, ConvexHull(points)
 

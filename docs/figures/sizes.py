@@ -47,7 +47,7 @@ def off(shape, of_rays, volume, rays):
     """Of diameters, the largest and in the mean of squares, and of the volume, as shares."""
     local = rays @ polyhedron.rotation(shape.orientation)
     along = [Vector3(*one) for one in np.concatenate([local, -local])]
-    both = np.array(shape.particle().surfaceDistance(along)).reshape(2, -1)
+    both = np.array(potential_particles.conic_particle(shape).surfaceDistance(along)).reshape(2, -1)
     shares = np.abs(both.mean(0) / of_rays(rays) - 1.0)
     return shares.max(), np.sqrt((shares**2).mean()), abs(shape.volume / volume - 1.0)
 

@@ -6,8 +6,9 @@ With <t> = max(t, 0) a particle is {x: S(x) <= 1} in its local frame,
     S(x) = (1-k)/r^2 sum <n_i.x - d_i>^2 + k/R^2 |x|^2,    s(x) = sqrt(S(x)).
 
 A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a
-Batch those of all pairs of a step on numpy arrays. `builders` makes particles of points, surfaces and names of solids,
-`slicing` cuts rock into blocks, `planar` has particles of the plane. Lengths are in the caller's unit, quaternions (w,
+Batch those of all pairs of a step on numpy arrays. `shapes` makes particles of points, surfaces, scans and names of
+solids, `packing` fills containers with them, `rock` cuts rock into blocks, `equilibrium` says whether bodies stand, and
+`planar` has particles of the plane. Lengths are in the caller's unit, quaternions (w,
 x, y, z), vectors in world axes unless said otherwise.
 
 In YADE, with the plugin, the names of `potential_particles.yade` stand here, too.
@@ -20,7 +21,7 @@ __version__ = "0.2.0"
 # Parts for YADE may be installed elsewhere than a wheel.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
-from . import builders, equilibrium, planar, slicing  # noqa: E402
+from . import equilibrium, packing, planar, rock, shapes  # noqa: E402
 from ._core import (  # noqa: E402
     FAILED,
     OVERLAPPING,
@@ -83,7 +84,6 @@ __all__ = [
     "Wall",
     "boundary_derivatives",
     "boundary_gradient",
-    "builders",
     "closest_point",
     "contact_area",
     "contact_derivatives",
@@ -94,13 +94,15 @@ __all__ = [
     "detect",
     "detect_batch",
     "equilibrium",
+    "packing",
     "patch_derivatives",
     "patch_of_contact",
     "patch_on_plane",
     "patch_on_triangle",
     "planar",
     "pose_type",
-    "slicing",
+    "rock",
+    "shapes",
 ]
 
 
@@ -109,3 +111,11 @@ if ("yade" in sys.modules or importlib.util.find_spec("yade")) and importlib.uti
     from .yade import __all__ as _of_yade, _glue  # noqa: F401
 
     __all__ += _of_yade
+
+_MOVED = {"builders": "shapes", "slicing": "rock"}
+
+
+def __getattr__(name):
+    if name in _MOVED:
+        raise AttributeError(f"potential_particles.{name} of version 0.1 is potential_particles.{_MOVED[name]} now: docs/wheel.md")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

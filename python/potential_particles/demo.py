@@ -4,15 +4,15 @@ import sys
 
 import numpy as np
 
-from . import Pose, builders, detect, patch_of_contact
+from . import Pose, detect, patch_of_contact, shapes
 
 COLOURS = "#2a6fb0", "#d98032"
 
 
 def bodies():
     """A rounded brick that leans on a regular solid of twelve faces: [(particle, pose), (particle, pose)]."""
-    solid = builders.regular_solid(12, 0.7, rounding=0.08)
-    brick = builders.cuboid((2.0, 1.2, 0.8), rounding=0.15)
+    solid = shapes.platonic_solid(12, 0.7, rounding=0.08)
+    brick = shapes.cuboid((2.0, 1.2, 0.8), rounding=0.15)
     return [(solid.particle, Pose((0.0, 0.0, 0.0))), (brick.particle, Pose((0.5, 0.1, 1.13), (1.0, 0.08, 0.12, 0.2)))]
 
 

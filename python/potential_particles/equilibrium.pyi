@@ -4,15 +4,9 @@ from typing import Callable, Optional, Sequence, Union
 from numpy.typing import ArrayLike
 
 from ._core import Vector
-from .slicing import RockMass
 
 class Scene:
     def __init__(self) -> None: ...
-    @staticmethod
-    def of_rock(mass: RockMass, unit_weight: ArrayLike, *, held: Sequence[int], friction: Union[float, Sequence[float]],
-                cohesion: Union[float, Sequence[float]] = 0.0,
-                tension: Union[float, Sequence[float]] = 0.0) -> Scene: ...
-
     def add_body(self, centre: ArrayLike, *, held: bool = False, force: Sequence[float] = ...,
                  torque: Sequence[float] = ..., live_force: Sequence[float] = ...,
                  live_torque: Sequence[float] = ...) -> int: ...

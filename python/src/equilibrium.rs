@@ -3,18 +3,15 @@
 use crate::arrays::{rows, to_rows, to_vector, vector};
 use crate::errors::refused;
 use crate::pickles::pickled;
-use crate::slicing::PyRockMass;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::equilibrium::{self as library, Body, Contact, Equilibrium, EquilibriumError, Flow};
-use potential_particles::equilibrium::{JointStrength, Load, Scene};
+use potential_particles::equilibrium::{Load, Scene};
 use potential_particles::nalgebra::{Matrix3, RowVector3, Vector3};
-use potential_particles::rock::{FaceOf, Interface, RockMass};
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use std::cell::RefCell;
-use std::collections::HashSet;
 
-/// Rigid bodies and their contacts, filled by add_body and add_contact or from a rock mass.
+/// Rigid bodies and their contacts, filled by add_body and add_contact; rock.limit_scene makes that of a rock mass.
 #[pyclass(name = "Scene", module = "potential_particles.equilibrium")]
 pub struct PyScene(Scene);
 
@@ -29,48 +26,9 @@ fn raised(error: EquilibriumError) -> PyErr {
     }
 }
 
-/// One number for all joints, or one for each.
-#[derive(FromPyObject)]
-enum OfJoints {
-    All(f64),
-    Each(Vec<f64>),
-}
-
-impl OfJoints {
-    fn check(&self, name: &str, mass: &RockMass) -> PyResult<()> {
-        let Self::Each(values) = self else { return Ok(()) };
-        if values.len() != mass.joints {
-            let said =
-                format!("{name} has {} numbers for {} joints: give one for each, or one", values.len(), mass.joints);
-            return Err(refused(said));
-        }
-        let mut faces = mass.blocks.iter().flat_map(|block| &block.faces);
-        if faces.any(|face| matches!(face.of, FaceOf::Region { .. })) {
-            return Err(refused(format!("{name} is a sequence, and regions divide blocks, too: give one number")));
-        }
-        Ok(())
-    }
-
-    fn each(&self) -> impl Iterator<Item = &f64> {
-        match self {
-            Self::All(value) => std::slice::from_ref(value).iter(),
-            Self::Each(values) => values.iter(),
-        }
-    }
-
-    /// At a face between blocks, after check().
-    fn at(&self, of: FaceOf) -> f64 {
-        match (self, of) {
-            (Self::All(value), _) => *value,
-            (Self::Each(values), FaceOf::Joint(joint)) => values[joint],
-            (Self::Each(_), _) => f64::NAN,
-        }
-    }
-}
-
 /// Refuses what can only be an angle in degrees.
-fn coefficient(friction: &f64) -> PyResult<()> {
-    if *friction > STEEPEST {
+fn coefficient(friction: f64) -> PyResult<()> {
+    if friction > STEEPEST {
         let tangent = friction.to_radians().tan();
         let said =
             format!("friction={friction} is a coefficient, tan of the angle: {friction} degrees are {tangent:.4}");
@@ -91,36 +49,6 @@ impl PyScene {
     #[new]
     fn new() -> Self {
         Self(Scene::default())
-    }
-
-    /// The blocks of a rock mass under unit_weight (3,), force over volume. held: indices of blocks. friction = tan
-    /// phi, a coefficient, cohesion, tension: of all joints, or sequences with a number for each joint of the slice.
-    #[staticmethod]
-    #[pyo3(signature = (mass, unit_weight, *, held, friction, cohesion=OfJoints::All(0.0), tension=OfJoints::All(0.0)))]
-    fn of_rock(
-        mass: &PyRockMass,
-        unit_weight: &Bound<'_, PyAny>,
-        held: Vec<usize>,
-        friction: OfJoints,
-        cohesion: OfJoints,
-        tension: OfJoints,
-    ) -> PyResult<Self> {
-        let weight = Vector3::from(vector::<3>(unit_weight, "unit_weight")?);
-        let count = mass.mass().blocks.len();
-        if let Some(block) = held.iter().find(|block| **block >= count) {
-            return Err(refused(format!("held names block {block} of a rock mass of {count}")));
-        }
-        let held: HashSet<usize> = held.into_iter().collect();
-        for (name, given) in [("friction", &friction), ("cohesion", &cohesion), ("tension", &tension)] {
-            given.check(name, mass.mass())?;
-        }
-        friction.each().try_for_each(coefficient)?;
-        let strength = |interface: &Interface| {
-            let [block, face] = interface.faces[0];
-            let of = mass.mass().blocks[block].faces[face].of;
-            JointStrength { friction: friction.at(of), cohesion: cohesion.at(of), tension: tension.at(of) }
-        };
-        Ok(Self(Scene::of_rock(mass.mass(), weight, |block| held.contains(&block), strength)))
     }
 
     /// Adds a body and returns its index. force and torque about its centre are there; live ones are multiplied by the
@@ -163,7 +91,7 @@ impl PyScene {
         initial: [f64; 3],
         area: Option<f64>,
     ) -> PyResult<usize> {
-        coefficient(&friction)?;
+        coefficient(friction)?;
         let corners = rows::<3>(corners, "corners", "x, y, z")?.into_iter().map(Vector3::from).collect();
         let normal = vector::<3>(normal, "normal")?.into();
         let contact = Contact::new([first, second], corners, normal, friction);

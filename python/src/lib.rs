@@ -16,7 +16,6 @@
 //! | `patch` | contact patches |
 //! | `derivative` | derivatives of contacts and patches |
 //! | `batch` | the pairs of a step |
-//! | `builders` | shapes |
 //! | `polyhedron` | sharp bodies, and shapes of them by lengths |
 //! | `packing` | packings |
 //! | `slicing` | rock masses |
@@ -26,7 +25,6 @@
 mod arrays;
 mod batch;
 mod boundary;
-mod builders;
 mod contact;
 mod derivative;
 mod equilibrium;
@@ -58,7 +56,6 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     patch::add(module)?;
     derivative::add(module)?;
     batch::add(module)?;
-    builders::add(module)?;
     polyhedron::add(module)?;
     packing::add(module)?;
     slicing::add(module)?;

@@ -1,15 +1,56 @@
 //! Sharp bodies, and shapes that are made of them and of round forms, with lengths for r and R.
 
 use crate::arrays::{index_rows, rows, to_rows, to_vector, vector};
-use crate::builders::{PyShape, count};
 use crate::errors::refused;
-use crate::particle::planes;
+use crate::particle::{PyMassProperties, PyParticle, planes};
 use numpy::{PyArray1, PyArray2};
 use potential_particles::nalgebra::Matrix3;
-use potential_particles::shapes::{self, Rounding, SharpBody};
+use potential_particles::shapes::{self, Rounding, Shape, SharpBody};
 use pyo3::prelude::*;
 use pyo3::types::PyTuple;
 use std::sync::OnceLock;
+
+/// A particle about its centroid along its principal axes, and where that frame lies in the builder's.
+#[pyclass(name = "BuiltShape", module = "potential_particles._core", frozen)]
+pub struct PyShape {
+    shape: Shape,
+    particle: Py<PyParticle>,
+}
+
+impl PyShape {
+    pub fn of(py: Python<'_>, shape: Shape) -> PyResult<Self> {
+        let particle = Py::new(py, PyParticle(shape.particle.clone()))?;
+        Ok(Self { shape, particle })
+    }
+}
+
+#[pymethods]
+impl PyShape {
+    #[getter]
+    fn particle(&self, py: Python<'_>) -> Py<PyParticle> {
+        self.particle.clone_ref(py)
+    }
+
+    #[getter]
+    fn mass(&self) -> PyMassProperties {
+        PyMassProperties(self.shape.mass)
+    }
+
+    #[getter]
+    fn sharp_volume(&self) -> f64 {
+        self.shape.sharp_volume
+    }
+
+    #[getter]
+    fn centroid<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, self.shape.centroid.as_slice())
+    }
+
+    #[getter]
+    fn orientation<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
+        to_vector(py, &self.shape.orientation)
+    }
+}
 
 /// The convex body {n.x <= h}, in the frame of the planes or points of which it is made.
 #[pyclass(name = "Polyhedron", module = "potential_particles.polyhedron", frozen)]
@@ -28,6 +69,11 @@ impl PyPolyhedron {
 fn lengths(r: Option<f64>, k: f64, shadow_radius: Option<f64>) -> Rounding {
     let rounding = r.map_or(Rounding::chosen(k), |r| Rounding::of_radius(r, k));
     shadow_radius.map_or(rounding, |length| rounding.with_shadow_radius(length))
+}
+
+/// Python's negative numbers would be an OverflowError.
+fn count(value: i64, name: &str) -> PyResult<usize> {
+    usize::try_from(value).map_err(|_| refused(format!("{name}={value} must not be negative")))
 }
 
 #[pymethods]
@@ -143,7 +189,7 @@ impl PyPolyhedron {
     #[allow(non_snake_case)]
     fn rounded(&self, py: Python<'_>, r: f64, k: f64, R: Option<f64>) -> PyResult<PyShape> {
         let rounding = lengths(Some(r), k, R);
-        PyShape::of(py, py.detach(|| shapes::Shape::of_body(&self.body, &rounding, None)).map_err(refused)?)
+        PyShape::of(py, py.detach(|| Shape::of_body(&self.body, &rounding, None)).map_err(refused)?)
     }
 
     /// The Shape of at most so many planes that comes nearest and has this volume; r=None: what comes nearest.

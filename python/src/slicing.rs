@@ -1,32 +1,21 @@
 //! Rock masses.
 
-use crate::arrays::{rows, to_rows, to_vector, vector};
+use crate::arrays::{rows, to_rows, vector};
 use crate::errors::refused;
-use crate::particle::{PyParticle, planes};
-use crate::pickles::pickled;
+use crate::particle::planes;
 use crate::records::structured;
 use bytemuck::{Pod, Zeroable};
-use numpy::{PyArray1, PyArray2};
 use potential_particles::Row;
-use potential_particles::rock::{Block, FaceOf, Joint, JointSet, RockMass, SliceSettings, slice_with_regions};
+use potential_particles::rock::{FaceOf, Joint, JointSet, RockMass, SliceSettings, slice_with_regions};
 use pyo3::prelude::*;
-use pyo3::types::PyTuple;
 use std::mem::offset_of;
-use std::sync::Arc;
 
 /// A plane, a disc or a convex polygon along which rock has parted.
-#[pyclass(name = "Joint", module = "potential_particles.slicing", frozen)]
+#[pyclass(name = "Joint", module = "potential_particles._core", frozen)]
 pub struct PyJoint(Joint);
 
 #[pymethods]
 impl PyJoint {
-    #[new]
-    #[pyo3(signature = (point, dip, dip_direction, *, radius=f64::INFINITY))]
-    fn new(point: &Bound<'_, PyAny>, dip: f64, dip_direction: f64, radius: f64) -> PyResult<Self> {
-        let joint = Joint::new(vector::<3>(point, "point")?, dip, dip_direction).map_err(refused)?;
-        if radius == f64::INFINITY { Ok(Self(joint)) } else { joint.with_radius(radius).map(Self).map_err(refused) }
-    }
-
     /// By a normal of any length.
     #[staticmethod]
     #[pyo3(signature = (point, normal, radius=f64::INFINITY))]
@@ -40,34 +29,12 @@ impl PyJoint {
         Joint::polygon(&rows::<3>(corners, "corners", "three numbers x, y, z")?).map(Self).map_err(refused)
     }
 
+    /// Point, normal and radius.
     #[getter]
-    fn point<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        to_vector(py, self.0.point.as_slice())
-    }
-
-    #[getter]
-    fn normal<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        to_vector(py, self.0.normal.as_slice())
-    }
-
-    #[getter]
-    fn radius(&self) -> f64 {
-        self.0.radius
-    }
-
-    /// Point, normal and radius, for one call in the place of three.
-    #[getter]
-    fn _parts(&self) -> ([f64; 3], [f64; 3], f64) {
+    fn parts(&self) -> ([f64; 3], [f64; 3], f64) {
         (self.0.point.into(), self.0.normal.into(), self.0.radius)
     }
-
-    fn __repr__(&self) -> String {
-        let (p, n) = (self.0.point, self.0.normal);
-        format!("<Joint through ({}, {}, {}), normal ({:.4}, {:.4}, {:.4})>", p.x, p.y, p.z, n.x, n.y, n.z)
-    }
 }
-
-pickled!(PyJoint: Joint);
 
 /// The joints of a set, as a list of Joint: those that cross the line through centre along their mean normal within
 /// reach of it.
@@ -95,121 +62,12 @@ fn joint_set(
     Ok(joints.into_iter().map(PyJoint).collect())
 }
 
-/// A convex block.
-#[pyclass(name = "Block", module = "potential_particles.slicing", frozen)]
-pub struct PyBlock {
-    mass: Arc<RockMass>,
-    place: usize,
-}
-
-impl PyBlock {
-    fn block(&self) -> &Block {
-        &self.mass.blocks[self.place]
-    }
-
-    fn alone(block: Block) -> Self {
-        let mass = RockMass { blocks: vec![block], missing: Vec::new(), too_small: 0, unclosed: 0, joints: 0 };
-        Self { mass: Arc::new(mass), place: 0 }
-    }
-}
-
-#[pymethods]
-impl PyBlock {
-    #[getter]
-    fn volume(&self) -> f64 {
-        self.block().volume
-    }
-
-    #[getter]
-    fn centroid<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        to_vector(py, self.block().centroid.as_slice())
-    }
-
-    /// Rows a, b, c, d of the faces, axes and origin of the domain.
-    #[getter]
-    fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
-        let planes = self.block().faces.iter().map(|face| face.plane);
-        to_rows(py, planes.map(|plane| [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset]))
-    }
-
-    /// What each face comes from: ("domain", i), ("joint", i) or, of plane i of a region, ("region", region, i).
-    #[getter]
-    fn origins<'py>(&self, py: Python<'py>) -> PyResult<Vec<Bound<'py, PyTuple>>> {
-        let origin = |of: FaceOf| match of {
-            FaceOf::Domain(i) => ("domain", i).into_pyobject(py),
-            FaceOf::Joint(i) => ("joint", i).into_pyobject(py),
-            FaceOf::Region { region, plane } => ("region", region, plane).into_pyobject(py),
-        };
-        self.block().faces.iter().map(|face| origin(face.of)).collect()
-    }
-
-    /// The region that it lies in, by its index, or None.
-    #[getter]
-    fn region(&self) -> Option<usize> {
-        self.block().region
-    }
-
-    /// Blocks of the same number were one before regions cut it.
-    #[getter]
-    fn parent(&self) -> usize {
-        self.block().parent
-    }
-
-    #[getter]
-    fn areas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        to_vector(py, &self.block().faces.iter().map(|face| face.area).collect::<Vec<_>>())
-    }
-
-    /// (n,): the part of each that lies in the true extent of its joint, a disc or polygon; all of it where the joint
-    /// has no end, 0 on other planes.
-    #[getter]
-    fn jointed_areas<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        to_vector(py, &self.block().faces.iter().map(|face| face.jointed_area).collect::<Vec<_>>())
-    }
-
-    /// Corners of each face, counter-clockwise from outside.
-    #[getter]
-    fn polygons<'py>(&self, py: Python<'py>) -> Vec<Bound<'py, PyArray2<f64>>> {
-        let block = self.block();
-        let corners = |face| block.corners_of(face).iter().map(|&corner| <[f64; 3]>::from(corner));
-        block.faces.iter().map(|face| to_rows(py, corners(face))).collect()
-    }
-
-    /// As a particle about its centroid, edges rounded by r, length.
-    fn particle(&self, r: f64) -> PyResult<PyParticle> {
-        self.block().particle(r).map(PyParticle).map_err(refused)
-    }
-
-    fn __repr__(&self) -> String {
-        format!("<Block of {} faces, volume {:.6}>", self.block().faces.len(), self.block().volume)
-    }
-}
-
-// With a mass of its own.
-pickled!(PyBlock: Block, |object| object.block(), |_py, block| PyBlock::alone(block));
-
 /// What a domain was cut into.
-#[pyclass(name = "RockMass", module = "potential_particles.slicing", frozen)]
-pub struct PyRockMass(Arc<RockMass>);
-
-impl PyRockMass {
-    pub fn mass(&self) -> &RockMass {
-        &self.0
-    }
-}
+#[pyclass(name = "RockMass", module = "potential_particles._core", frozen)]
+pub struct PyRockMass(RockMass);
 
 #[pymethods]
 impl PyRockMass {
-    #[getter]
-    fn blocks(&self) -> Vec<PyBlock> {
-        (0..self.0.blocks.len()).map(|place| PyBlock { mass: self.0.clone(), place }).collect()
-    }
-
-    #[getter]
-    fn volumes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray1<f64>> {
-        to_vector(py, &self.0.blocks.iter().map(|block| block.volume).collect::<Vec<_>>())
-    }
-
     #[getter]
     fn missing(&self) -> Vec<usize> {
         self.0.missing.clone()
@@ -235,13 +93,7 @@ impl PyRockMass {
     fn arrays(&self, py: Python<'_>) -> PyResult<Arrays> {
         arrays(py, &self.0)
     }
-
-    fn __repr__(&self) -> String {
-        format!("<RockMass of {} blocks>", self.0.blocks.len())
-    }
 }
-
-pickled!(PyRockMass: RockMass, |object| *object.0, |_py, mass| Self(Arc::new(mass)));
 
 type Arrays = (Py<PyAny>, Py<PyAny>, Py<PyAny>, Py<PyAny>);
 
@@ -393,14 +245,13 @@ fn slice(
     let cut = py.detach(|| slice_with_regions(&domain, &joints, &regions, &settings, told));
     match raised {
         Some(error) => Err(error),
-        None => Ok(PyRockMass(Arc::new(cut.map_err(refused)?))),
+        None => Ok(PyRockMass(cut.map_err(refused)?)),
     }
 }
 
 pub fn add(parent: &Bound<'_, PyModule>) -> PyResult<()> {
     let module = PyModule::new(parent.py(), "_slicing")?;
     module.add_class::<PyJoint>()?;
-    module.add_class::<PyBlock>()?;
     module.add_class::<PyRockMass>()?;
     module.add_function(wrap_pyfunction!(joint_set, &module)?)?;
     module.add_function(wrap_pyfunction!(slice, &module)?)?;

@@ -9,7 +9,7 @@ import numpy as np
 
 def main():
     import potential_particles
-    from potential_particles import builders, rock, shapes, slicing
+    from potential_particles import rock, shapes
     from yade import FrictMat, O
     # One package, whose names are those of one _core.
     from potential_particles import _core, polyhedron, yade as host
@@ -25,10 +25,9 @@ def main():
         for i in (0, 1)
     ]
     contact = potential_particles.detect(particle, poses[0], particle, poses[1])
-    made = builders.cuboid((1, 1, 0.5))
-    assert abs(made.volume / potential_particles.shapes.cuboid((1, 1, 0.5)).volume - 1) < 1e-5
+    made = shapes.cuboid((1, 1, 0.5))
     np.testing.assert_allclose(np.sort(made.particle.planes[:, 3]), np.sort(particle.planes[:, 3]), rtol=1e-6)
-    assert hasattr(rock, "Domain") and hasattr(slicing, "slice")
+    assert hasattr(rock, "Domain") and callable(rock.bodies)
     import yade
     O.engines = [yade.InsertionSortCollider([yade.Bo1_ConicPP_Aabb()], verletDist=0), loop(yade)]
     O.step()

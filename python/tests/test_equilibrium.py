@@ -4,7 +4,7 @@ import math
 import unittest
 
 import numpy as np
-from potential_particles import equilibrium, slicing
+from potential_particles import equilibrium, rock
 
 SQUARE = [(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)]
 
@@ -80,20 +80,20 @@ class Block(unittest.TestCase):
 class Rock(unittest.TestCase):
     def test_blocks_on_one_joint(self):
         box = np.vstack([[s * a for a in row] + [1] for row in np.eye(3) for s in (1, -1)])
-        mass = slicing.slice(box, [slicing.Joint((0, 0, 0), 25, 90), slicing.Joint((0, 0, 0), 90, 0)])
-        held = [i for i, one in enumerate(mass.blocks) if one.centroid[2] < 0]
-        scene = equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=held, friction=0.8)
-        self.assertEqual((scene.body_count, scene.contact_count), (4, 4))
+        mass = rock.slice(rock.Domain(box), [rock.joint((0, 0, 0), 25, 90), rock.joint((0, 0, 0), 90, 0)])
+        held = [i for i, one in enumerate(mass) if one.centroid[2] < 0]
+        scene = rock.limit_scene(mass, held, friction=math.degrees(math.atan(0.8)))
+        self.assertEqual((scene.body_count, scene.contact_count), (4, 3))
         self.assertEqual(scene.corners.shape, (len(scene.contact_of_corner), 3))
         self.assertAlmostEqual(scene.strength_factor().factor, 0.8 / math.tan(math.radians(25)), delta=2e-6)
-        with self.assertRaisesRegex(ValueError, "held names block 9 of a rock mass of 4"):
-            equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=[9], friction=0.8)
+        with self.assertRaisesRegex(ValueError, "held must be numbers from 0 to 3"):
+            rock.limit_scene(mass, [9])
         # Strength by joint: that of the joint on which it slides counts.
         for friction, expected in (((0.8, 0.1), 0.8), ((0.5, 9.0), 0.5)):
-            scene = equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=held, friction=friction)
+            angles = {entry: math.degrees(math.atan(one)) for entry, one in enumerate(friction)}
+            angles[None] = 0.0
+            scene = rock.limit_scene(mass, held, friction=angles)
             found = scene.strength_factor().factor
             self.assertAlmostEqual(found, expected / math.tan(math.radians(25)), delta=2e-6)
-        with self.assertRaisesRegex(ValueError, "friction has 3 numbers for 2 joints"):
-            equilibrium.Scene.of_rock(mass, (0, 0, -26e3), held=held, friction=(0.5, 0.5, 0.5))
         scene.push((1, 0, 0))
         self.assertGreater(scene.load_factor().factor, 0.0)

@@ -2,6 +2,7 @@
 """Shapes of the scenes, and bodies of them. Local frame, m."""
 
 import numpy as np
+import potential_particles
 import yade
 from yade import O, Vector3
 
@@ -13,7 +14,7 @@ OCTAHEDRON_NORMALS = np.array([(x, y, z) for x in (-1, 1) for y in (-1, 1) for z
 
 def half_height(shape):
     """Distance from the centre to the surface along the local z axis."""
-    return shape.particle().surfaceDistance([Vector3(0, 0, 1)])[0]
+    return potential_particles.conic_particle(shape).surfaceDistance([Vector3(0, 0, 1)])[0]
 
 
 def plain_body(shape, material, position, orientation=(1, 0, 0, 0), fixed=False):

@@ -19,7 +19,7 @@ bodies = (shapes.cuboid((0.12, 0.1, 0.06), r=0.004, k=0.0), shapes.cuboid((0.1, 
 directions = random.normal(size=(4000, 3))
 directions /= np.linalg.norm(directions, axis=1)[:, None]
 ways = [Vector3(*d) for d in directions]
-surfaces = [np.array(shape.particle().surfaceDistance(ways))[:, None] * directions for shape in bodies]
+surfaces = [np.array(potential_particles.conic_particle(shape).surfaceDistance(ways))[:, None] * directions for shape in bodies]
 O.materials.append(yade.FrictMat(young=1e7, poisson=0.6, frictionAngle=math.atan(MU), density=2600))
 
 

@@ -67,7 +67,7 @@ errors = []
 for planes in 12, 30, 100:
     shape, said = told(lambda: shapes.from_mesh(file, planes=planes))
     check.true(len(shape.planes) <= planes and not said, f"at most {planes} planes, without a warning: {said}")
-    check.close(shape.particle().massProperties(1e-6)[0] / hull.volume, 1.0, 1e-5, f"{planes} planes keep the volume")
+    check.close(potential_particles.conic_particle(shape).massProperties(1e-6)[0] / hull.volume, 1.0, 1e-5, f"{planes} planes keep the volume")
     check.close(shape.fit.volume / hull.volume, 1.0, 1e-6, "which is told")
     check.close(Vector3(*shape.centroid), Vector3(30, -20, 10), 0.03, "where the scan stands")
     found = surface_distance(shape, np.concatenate([points, middle]))

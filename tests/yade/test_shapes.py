@@ -15,7 +15,7 @@ check = Checks()
 
 def surface(shape, directions):
     """Points of the surface in the builder's frame."""
-    particle = shape.particle()
+    particle = potential_particles.conic_particle(shape)
     directions = np.asarray(directions, float)
     lengths = np.array(particle.surfaceDistance([Vector3(*one) for one in directions]))
     points = directions / np.linalg.norm(directions, axis=1)[:, None] * lengths[:, None]
@@ -47,7 +47,7 @@ def reach(shape, direction):
     def slope(x):
         beyond = np.maximum(planes[:, :3] @ x - planes[:, 3], 0.0)
         return 2 * (1 - shape.k) / shape.r**2 * (beyond @ planes[:, :3]) + 2 * shape.k / shape.R**2 * x
-    start = normals * shape.particle().surfaceDistance([Vector3(*normals)])[0]
+    start = normals * potential_particles.conic_particle(shape).surfaceDistance([Vector3(*normals)])[0]
     found = minimize(lambda x: -normals @ x, start, jac=lambda x: -normals, method="SLSQP",
                      options={"ftol": 1e-12, "maxiter": 500},
                      constraints={"type": "ineq", "fun": lambda x: 1 - s(x), "jac": lambda x: -slope(x)})
@@ -70,7 +70,7 @@ for r, k in [(0.02, 0.0), (0.1, 0.02), (0.2, 0.3)]:
     own = np.array(shape.planes)
     check.true(abs(np.linalg.norm(own[:, :3], axis=1) - 1).max() < 1e-12, "normals are unit vectors")
     # The frame: its own centroid and principal axes.
-    volume, centroid, inertia, error = shape.particle().massProperties(1e-7)
+    volume, centroid, inertia, error = potential_particles.conic_particle(shape).massProperties(1e-7)
     off_axes = max(abs(inertia[i, j]) for i, j in ((0, 1), (1, 2), (0, 2)))
     check.true(centroid.norm() < 1e-5 * shape.bounding_radius and off_axes < 3e-5 * inertia[0, 0],
                f"r={r}, k={k}: principal frame: {centroid}, {off_axes / inertia[0, 0]:g}")
@@ -104,7 +104,7 @@ for name, made, volume in [("cylinder", shapes.cylinder(0.05, 0.1), math.pi * 0.
                            ("superquadric", shapes.superquadric((1, 0.7, 0.5), (1, 1)), 1.4 / 3 * math.pi)]:
     check.close(made.volume / volume, 1.0, 5e-3, f"volume of a {name}")
     check.close(made.sharp_volume / volume, 1.0, 1e-9, "and that of what was asked for")
-    check.close(made.particle().massProperties(1e-5)[0] / made.volume, 1.0, 1e-5, "as YADE has it")
+    check.close(potential_particles.conic_particle(made).massProperties(1e-5)[0] / made.volume, 1.0, 1e-5, "as YADE has it")
     check.close(made.scaled(2.0).sharp_volume / volume, 8.0, 1e-8, "twice as large")
 check.raises(ValueError, lambda: shapes.cuboid(k=1), "k = 1 has no faces", "sphere(R)")
 pyramid = shapes.prism(4, 0.5, 1.0, top_radius=0.0, **sharp)
@@ -133,7 +133,7 @@ check.true(np.abs(np.sort(axes, axis=0)[2] - 1).max() < 1e-5, f"its principal ax
 
 # Scaling.
 small, large = shapes.random_rock(5), shapes.random_rock(5).scaled(1000.0)
-again = large.particle().massProperties()
+again = potential_particles.conic_particle(large).massProperties()
 check.close(again[0] / large.volume, 1.0, 3e-6, "volume of a scaled shape")
 check.close(again[2][1, 1] / large.inertia[1], 1.0, 3e-6, "its inertia")
 check.close(large.bounding_radius / small.bounding_radius, 1000.0, 1e-6, "its bounding radius")

@@ -152,7 +152,7 @@ bodies = {
     "sphere": ball,
     "pyramid": place(pyramid(size=0.6), 1, 0, (1, 0, 0), turn=turned((1, 0.3, 0), 1.0)),
     "sharp cube": place(cube(half=0.65, r=1e-6, k=1e-6, R=2), 2, 0, (0, 1, 0), turn=turned((1, 2, 3), 0.7)),
-    "rock": place(shapes.random_rock(3, 1.5, elongation=0.7).particle(), 0, 1, (1, 1, 0), turn=turned((0, 1, 1), 0.5)),
+    "rock": place(potential_particles.conic_particle(shapes.random_rock(3, 1.5, elongation=0.7)), 0, 1, (1, 1, 0), turn=turned((0, 1, 1), 0.5)),
     "plain pyramid": place(plain(pyramid_planes(0.6), r=0.05, k=0.05, R=0.9), 1, 1, (1, 0, 1), turn=turned((0, 0, 1),
                                                                                                            0.6)),
     "ball": place(yade.ConicPotentialParticle(k=1, R=0.9), 2, 1, (0, 1, 1)),

@@ -8,11 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from . import time_step, tools, traps, unserved
-from .arguments import is_friction_angle
-from .bodies import is_free
+from .arguments import SceneWarning, is_friction_angle
+from .bodies import definition, is_free, volumes
 from .clumps import union
 from .measures import largest_overlap
-from .shape import definition, volumes
 
 # Lever arms of spheres: for bodies of any other shape the torque is wrong.
 _SPHERES_ONLY = {
@@ -29,10 +28,6 @@ _MASS_TOLERANCE = _INERTIA_TOLERANCE = 0.01
 # Shapes made by hand whose volume, and clumps whose union is measured before the first step, at 10 ms each; check()
 # measures all.
 _MEASURED_AT_FIRST = 50
-
-
-class SceneWarning(UserWarning):
-    """Something in a scene that is wrong for its potential particles and that YADE does not report."""
 
 
 class Finding(NamedTuple):

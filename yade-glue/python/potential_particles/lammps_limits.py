@@ -8,7 +8,7 @@ from .bodies import is_free, lasting
 
 
 def warn(text):
-    from .check import SceneWarning
+    from .arguments import SceneWarning
     warnings.warn_explicit(f"potential_particles: to_lammps: {text}", SceneWarning, "potential_particles", 0)
 
 

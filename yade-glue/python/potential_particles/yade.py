@@ -39,7 +39,7 @@ import functools
 import sys
 
 from . import __version__, _core, builds, window
-from .bodies import body, guard_append
+from .bodies import add_packing, body, conic_particle, guard_append
 from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
 from .lammps import to_lammps
@@ -47,7 +47,7 @@ from .limit_analysis import limit_analysis
 from .measures import (body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity,
                        solid_volume, stress)
 from .outside import protect_runs
-from .packing import add_packing, pack
+from .packing import pack
 from .saves import save
 from .simulated import factor_by_simulation
 from .specimen import grading_curve, sampled_porosity
@@ -59,7 +59,7 @@ _PLUGIN = "0.2.0"
 
 __all__ = [
     "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
-    "bond_contacts", "check", "clump", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
+    "bond_contacts", "check", "clump", "conic_particle", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
     "factor_by_simulation", "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "plot_equilibrium",
     "porosity", "prepare", "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "start_from",
     "stress", "time_stepper", "to_lammps", "use_joints"

@@ -7,7 +7,7 @@ import yade
 
 from ..bodies import is_free, owner
 from ..files import written
-from ..limit_analysis import clipped
+from ..limit_state import clipped
 from .drawn import ShapeMeshes
 from .equilibrium_picture import Block, picture
 from .mesh import rotation_matrix

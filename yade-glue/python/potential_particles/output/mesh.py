@@ -6,6 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from .. import _glue
+from ..bodies import conic_particle
 from ..shape import Shape
 
 
@@ -38,7 +39,7 @@ def mesh(shape, tolerance=1e-3):
     particle.
     """
     if isinstance(shape, Shape):
-        shape = shape.particle()
+        shape = conic_particle(shape)
     points, normals, triangles, error = _glue.surface_mesh(shape, float(tolerance))
     return Mesh(np.frombuffer(points).reshape(-1, 3), np.frombuffer(normals).reshape(-1, 3),
                 np.frombuffer(triangles, np.uint32).reshape(-1, 3).astype(np.int64), error)

@@ -14,7 +14,7 @@ from yade.wrapper import ConicPotentialParticle
 
 from ..arguments import positive, rows
 from ..polyhedron import Polyhedron, principal_axes
-from ..shape import definition, volumes
+from ..bodies import definition, volumes
 
 #: A centroid, or a product of inertia, that is smaller than this share is 0 up to rounding.
 ROUNDING = 1e-6

@@ -10,6 +10,8 @@ from ..joints import FOLLOWS, of_engine, table
 from ..polyhedron import principal_axes
 from ..rounding import Rounding
 from ..shape import Shape
+from .loads import loads_of
+from .mass import marked
 
 TAG = "potential_particles.rock"
 # After the tag of an engine: the step in which it ran last.
@@ -218,33 +220,27 @@ def _shape(block, wanted, overlap):
     return shape, orientation
 
 
-def marked(chosen, count, name):
-    """(count,) of bool from numbers or from that."""
-    given = np.asarray(chosen)
-    if given.dtype == bool and given.shape == (count,):
-        return given
-    marked = np.zeros(count, bool)
-    try:
-        numbers = given.astype(int)
-        if given.dtype == bool or given.size and (numbers.min() < 0 or not np.array_equal(numbers, given)):
-            raise ValueError
-        marked[numbers] = True
-    except (IndexError, ValueError, TypeError):
-        raise ValueError(f"{name} must be numbers from 0 to {count - 1}, or {count} of bool") from None
-    return marked
+def apply_loads(ids, loads):
+    """Gives bodies lasting forces and torques, in the place of those that they have: ids (blocks,) of bodies(), loads
+    (blocks, 6). On a clump, those of its members.
 
-
-def loads_of(loads, count):
-    """Forces and torques as an array (count, 6), torques 0 where only forces are given; ValueError for what is neither.
+    YADE does not save lasting forces: call it again after O.load(), and O.forces.reset(resetAll=True) where other
+        bodies take the ids.
     """
-    try:
-        found = np.asarray(loads, float)
-    except (TypeError, ValueError):
-        found = np.zeros(0)
-    if found.ndim != 2 or found.shape[0] != count or found.shape[1] not in (3, 6) or not np.isfinite(found).all():
-        raise ValueError(
-            f"loads must be ({count}, 6) finite numbers, force and torque of each block, as of water_pressure()")
-    return np.column_stack([found, np.zeros((count, 6 - found.shape[1]))])
+    import yade
+    from ..bodies import owner
+    forces, loads = {}, loads_of(loads, len(ids))
+    for one, load in zip(ids, loads):
+        body = yade.O.bodies[int(one)]
+        if body is None:
+            continue
+        carrier = owner(body)
+        arm = np.array(body.state.pos) - np.array(carrier.state.pos)
+        turned = np.concatenate([load[:3], load[3:] + np.cross(arm, load[:3])])
+        forces[carrier.id] = forces.get(carrier.id, 0.0) + turned
+    for one, load in forces.items():
+        yade.O.forces.setPermF(one, yade.Vector3(*load[:3]))
+        yade.O.forces.setPermT(one, yade.Vector3(*load[3:]))
 
 
 def _shade(number):

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Joints from files: discrete fracture networks, and the tables of YADE's BlockGen."""
 import itertools
 import math

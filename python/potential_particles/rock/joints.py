@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Joints one by one and in sets."""
 import dataclasses
 import math
@@ -99,7 +99,7 @@ class JointSet:
 
 
 def _of_core(joint, outline=()):
-    point, normal, radius = joint._parts
+    point, normal, radius = joint.parts
     return Joint(tuple(point), tuple(normal), radius, outline)
 
 

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """The sharp convex polyhedron behind a particle, and the Shape that is made of it by rounding: by the library."""
 import numpy as np
 

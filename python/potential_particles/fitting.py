@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Few planes for a surface of many: scans as particles.
 
 The library finds the planes and r: src/shapes/fitting.rs. What is decided here is how many planes there are, and how
@@ -10,7 +10,7 @@ import warnings
 
 import numpy as np
 
-from .arguments import positive, whole
+from .arguments import SceneWarning, positive, whole
 from .polyhedron import fitted, rotation, rounded
 from .rounding import ROUNDING
 from .shape import Fit
@@ -76,7 +76,6 @@ def warn_of_volume(shape, what):
 
 
 def _warn(text):
-    from .check import SceneWarning
     warnings.warn_explicit(f"potential_particles: {text}", SceneWarning, "potential_particles", 0)
 
 

@@ -1,10 +1,12 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Packings: many bodies without overlap in a box or a cylinder, as the start of a scene.
 
-    from potential_particles import add_packing, pack, packing, shapes
+    from potential_particles import packing, shapes
     rocks = [shapes.random_rock(seed) for seed in range(20)]
-    bodies = pack(packing.Box((0, 0, 0), (2, 2, 4)), rocks, sizes=[(0.1, 0.0), (0.2, 0.4), (0.4, 1.0)],
-    shares="passing", dense=True) add_packing(bodies, material)
+    placements = packing.pack(packing.Box((0, 0, 0), (2, 2, 4)), rocks, sizes=[(0.1, 0.0), (0.2, 0.4), (0.4, 1.0)],
+                              shares="passing", dense=True)
+
+In YADE add_packing(placements, material) makes bodies of them.
 
 The library decides what overlaps (docs/packing.md).
 """
@@ -18,6 +20,8 @@ import typing
 from ._core import Particle, _packing
 from .arguments import number as finite
 from .arguments import LARGE, MANY, positive, rows, vector, whole
+
+__all__ = ["Box", "Cylinder", "Placement", "pack", "volume_between"]
 
 
 class Box(typing.NamedTuple):
@@ -93,20 +97,6 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
     return placements
 
 
-def add_packing(placements, material=None, **more):
-    """Appends the bodies of a packing to O.bodies; their ids. `more` goes to body() (fixed, color, mask, ...)."""
-    import yade
-    from .bodies import body
-    scaled = {}
-    made = []
-    for placement in placements:
-        key = id(placement.shape), placement.scale
-        if key not in scaled:
-            scaled[key] = placement.shape.scaled(placement.scale)
-        made.append(body(scaled[key], material, placement.position, placement.orientation, **more))
-    return yade.O.bodies.append(made)
-
-
 def volume_between(placements, lower=-float("inf"), upper=float("inf")):
     """Volume of the bodies whose centroids lie between two heights, length^3."""
     return sum(one.shape.volume * one.scale**3 for one in placements if lower <= _centroid(one)[2] <= upper)
@@ -152,18 +142,33 @@ def _size_rows(sizes):
 
 
 def _placement(shape, scale, position, orientation):
-    """In the frame in which body() places a shape, from the pose of its centroid and principal axes."""
-    from yade import Quaternion, Vector3
+    """In the frame in which the shape was built, from the pose of its centroid and principal axes."""
     w, x, y, z = shape.orientation
-    to_frame = Quaternion(*orientation) * Quaternion(w, x, y, z).conjugate()
-    origin = Vector3(*position) - to_frame * (Vector3(*shape.centroid) * scale)
-    return Placement(shape, scale, tuple(origin), (to_frame[3], to_frame[0], to_frame[1], to_frame[2]))
+    to_frame = _product(orientation, (w, -x, -y, -z))
+    shift = _turned(to_frame, [scale * one for one in shape.centroid])
+    return Placement(shape, scale, tuple(one - other for one, other in zip(position, shift)), to_frame)
 
 
 def _centroid(placement):
-    from yade import Quaternion, Vector3
-    return Vector3(*placement.position) + Quaternion(*placement.orientation) * (Vector3(*placement.shape.centroid)
-                                                                                * placement.scale)
+    shift = _turned(placement.orientation, [placement.scale * one for one in placement.shape.centroid])
+    return [one + other for one, other in zip(placement.position, shift)]
+
+
+def _product(first, second):
+    """Of two quaternions w, x, y, z."""
+    (a, *u), (b, *v) = first, second
+    across = _cross(u, v)
+    return (a * b - sum(p * q for p, q in zip(u, v)), *(a * q + b * p + c for p, q, c in zip(u, v, across)))
+
+
+def _turned(orientation, vector):
+    w, *axis = orientation
+    once = [2.0 * one for one in _cross(axis, vector)]
+    return [v + w * o + t for v, o, t in zip(vector, once, _cross(axis, once))]
+
+
+def _cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
 class _Interrupts:

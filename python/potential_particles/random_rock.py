@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Rocks at random: convex polyhedra about an ellipsoid."""
 import numpy as np
 

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """What is cut: a convex domain, less regions that are left out."""
 import dataclasses
 import math

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """How edges and corners are rounded, as a script says it: r as a length or as a share of the size.
 
 The size is the diameter of the largest ball that fits inside the sharp body. How the planes of the particle follow from
@@ -10,7 +10,7 @@ import math
 import typing
 import warnings
 
-from .arguments import number, positive, within
+from .arguments import SceneWarning, number, positive, within
 
 # What docs/shapes.md advises.
 ROUNDING, SPHERICITY = 0.05, 0.02
@@ -59,7 +59,6 @@ class Rounding(typing.NamedTuple):
     def told_of(self, shape):
         """The shape, with a SceneWarning if the shadow sphere of a given R cuts off a part of it."""
         if self.R is not None and shape.k > 0.0 and shape.bounding_radius >= (1.0 - 1e-9) * shape.R / math.sqrt(shape.k):
-            from .check import SceneWarning
             warnings.warn_explicit(
                 f"potential_particles: {shape.name}: R={self.R:g}: a sphere of radius R/sqrt(k)="
                 f"{shape.R / math.sqrt(shape.k):.6g} cuts off what lies beyond; leave R out, or take a larger one",

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Limit analysis of a rock mass as it was cut, without a simulation: does it stand, how much more could it bear, how
 much weaker could its joints be? With turns and with all blocks at once, which block theory leaves out.
 """
@@ -7,23 +7,39 @@ import math
 import numpy as np
 
 from ..arguments import positive, vector
-from ..limit_analysis import Body, asked, clipped, solved
+from ..limit_state import Body, asked, clipped, scene_of, solved
 from .block_theory import by_set
-from .mass import LEAST_SHARE
-from .scene import loads_of, marked
+from .loads import loads_of
+from .mass import LEAST_SHARE, marked
 
 
 def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0, tension=0.0, density=2600.0,
                    gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False):
     """Whether the blocks of a RockMass come to rest on their faces, loaded from nothing: an Equilibrium, as of
-    potential_particles.limit_analysis(). Its bodies are the pieces of the mass, named by their first block.
+    limit_analysis() of YADE's scenes. Its bodies are the pieces of the mass, named by their first block.
 
     held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES). removed: blocks that are
-    taken out. question, push, dilatant: as of potential_particles.limit_analysis(). friction, density, gravity, loads:
+    taken out. question: "stands", "load" or
+    "strength"; push: (3,), a live load of each block's weight in this direction; dilatant: docs/equilibrium.md. friction, density, gravity, loads:
     as of key_blocks(). cohesion, tension: strength of joints, force per area, numbers or dicts by entries of the
     `joints` of slice().
     """
     asked(question)
+    bodies, names, rows, pairs = _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push)
+    return solved(question, dilatant, bodies, names, rows, pairs)
+
+
+def limit_scene(mass, held, friction=30.0, cohesion=0.0, tension=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81), removed=(),
+          loads=None, push=None):
+    """The same blocks and joints as an equilibrium.Scene, for what limit_analysis() does not ask: stress in situ, bolts,
+    other live loads. Its bodies are the pieces of the mass, in their order.
+    """
+    bodies, _, rows, _ = _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push)
+    return scene_of(bodies, rows)
+
+
+def _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push):
+    """Bodies, their names, contacts as rows of scene_of(), and the names of their bodies."""
     friction = by_set(friction, "friction", 89.9)
     cohesion, tension = by_set(cohesion, "cohesion"), by_set(tension, "tension")
     weight = positive(density, "density") * vector(gravity, "gravity")
@@ -45,7 +61,7 @@ def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0,
             pairs.append(tuple(numbers[one][0] for one in of))
     if not rows:
         raise ValueError("no free block of the mass touches another one: hold fewer blocks")
-    return solved(question, dilatant, bodies, [blocks[0] for blocks in numbers], rows, pairs)
+    return bodies, [blocks[0] for blocks in numbers], rows, pairs
 
 
 def _pieces(mass, gone):

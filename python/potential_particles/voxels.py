@@ -1,11 +1,10 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Grains of a labelled image of voxels (micro-tomography) as particles that stand where the grains are."""
 import os
 import sys
 import time
 
 import numpy as np
-from scipy import ndimage
 
 from . import fitting
 from .arguments import LARGE, positive, whole
@@ -49,6 +48,7 @@ def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPH
     image = voxel_image(labels)
     spacing, least = positive(spacing, "spacing"), whole(least, 8, LARGE, "least")
     begin, made, left_out, stopped = time.monotonic(), [], {}, ""
+    from scipy import ndimage
     # ndimage.find_objects makes a list as long as the largest label.
     names, shape = None, image.shape
     if image.max() > image.size:

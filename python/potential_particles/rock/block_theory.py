@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Which pieces of rock at a free face can leave, and how (Goodman & Shi, Block Theory and Its Application to Rock
 Engineering, 1985).
 
@@ -21,8 +21,8 @@ import math
 import numpy as np
 
 from ..arguments import LARGE, positive, vector, whole, within
-from .mass import LEAST_SHARE, OF_DOMAIN, planes_of
-from .scene import marked, loads_of
+from .loads import loads_of
+from .mass import LEAST_SHARE, OF_DOMAIN, marked, planes_of
 
 # Of unit vectors: a direction that leaves a plane by less lies in it.
 TOLERANCE = 1e-9

@@ -1,5 +1,6 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """The shape of a surface from a file: its convex hull, if the surface is that hull or the script accepts it."""
+import itertools
 import os
 
 import numpy as np
@@ -9,6 +10,8 @@ from .gts_file import read_gts
 from .polyhedron import Polyhedron
 from .rounding import SPHERICITY, Rounding
 
+# Of the extent of a body: points nearer than that are one.
+SAME = 1e-7
 READERS = {**mesh_text.READERS, ".gts": read_gts}
 
 
@@ -43,13 +46,16 @@ def from_mesh(file, rounding=None, k=SPHERICITY, R=None, hull=False, scale=1.0, 
 
 
 def volume_within(points, triangles):
-    """Volume of a closed surface whose triangles all go round the same way, or else of the convex hull."""
+    """Volume of a closed surface whose triangles all go round the same way, or else of the convex hull; so, too, of one
+    that encloses nothing.
+    """
     ways = triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)
     closed = len(np.unique(ways, axis=0)) == len(ways) and np.array_equal(np.unique(ways, axis=0),
                                                                           np.unique(ways[:, ::-1], axis=0))
     middle = points.mean(0)
     a, b, c = (points[triangles[:, i]] - middle for i in range(3))
-    return abs(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6.0 if closed else Polyhedron.of_points(points).volume
+    enclosed = abs(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6.0 if closed else 0.0
+    return enclosed or Polyhedron.of_points(points).volume
 
 
 def read(file):
@@ -72,19 +78,40 @@ def scaled(points, scale, file):
 
 
 def _once(points, polygons):
-    """Points of which those within 1e-7 of the diagonal of the body are one, and polygons as triangles, by VTK."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkFiltersCore import vtkCleanPolyData, vtkTriangleFilter
-    from .output import vtk_files
-    once, triangles = vtkCleanPolyData(), vtkTriangleFilter()
-    once.SetTolerance(1e-7)
-    triangles.PassVertsOff()
-    triangles.PassLinesOff()
-    once.SetInputData(vtk_files.polygons(points, polygons))
-    triangles.SetInputConnection(once.GetOutputPort())
-    triangles.Update()
-    found = triangles.GetOutput()
-    if found.GetNumberOfPolys() == 0:
-        return points, np.zeros((0, 3), int)
-    return (vtk_to_numpy(found.GetPoints().GetData()).astype(float),
-            vtk_to_numpy(found.GetPolys().GetConnectivityArray()).reshape(-1, 3).astype(int))
+    """Points of which those within about 1e-7 of the extent of the body are one, the first, and polygons as triangles
+    of three different points.
+    """
+    size = SAME * np.ptp(points, axis=0).max()
+    first = np.arange(len(points))
+    # Of two points as near as that one of eight grids, shifted by half a cell, has both in one cell.
+    for shift in np.ndindex(2, 2, 2):
+        if size > 0.0:
+            cells = np.floor((points - points.min(0)) / (2.0 * size) + 0.5 * np.array(shift))
+            _, of_cell = np.unique(cells, axis=0, return_inverse=True)
+            least = np.full(len(points), len(points))
+            np.minimum.at(least, of_cell.ravel(), first)
+            first = least[of_cell.ravel()]
+    kept, places = np.unique(first, return_inverse=True)
+    corners = itertools.chain.from_iterable(_triangles(points, polygon) for polygon in polygons)
+    triangles = places.ravel()[np.fromiter(corners, np.dtype((np.int64, 3)))]
+    return points[kept], triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
+
+
+def _triangles(points, polygon):
+    """A polygon as triangles: a fan, or, where it is not convex, what VTK makes of it."""
+    if len(polygon) == 3:
+        return [polygon]
+    around = points[polygon] - np.mean(points[polygon], axis=0)
+    turns = np.cross(around - np.roll(around, 1, axis=0), np.roll(around, -1, axis=0) - around)
+    if (turns @ np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0) < 0.0).any():
+        from vtkmodules.vtkCommonDataModel import vtkPolygon
+        shape = vtkPolygon()
+        for number, point in enumerate(points[polygon]):
+            shape.GetPointIds().InsertNextId(number)
+            shape.GetPoints().InsertNextPoint(point)
+        from vtkmodules.vtkCommonCore import vtkIdList
+        found = vtkIdList()
+        shape.Triangulate(found)
+        numbers = [polygon[found.GetId(i)] for i in range(found.GetNumberOfIds())]
+        return list(zip(numbers[::3], numbers[1::3], numbers[2::3]))
+    return [(polygon[0], *two) for two in zip(polygon[1:-1], polygon[2:])]

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Pressure on faces as forces on blocks: water in a joint, a surcharge.
 
 Over a triangle of area A a pressure that is p_i at its corners x_i, and linear between, has
@@ -8,8 +8,7 @@ Over a triangle of area A a pressure that is p_i at its corners x_i, and linear 
 import numpy as np
 
 from ..arguments import number, positive
-from ..bodies import owner
-from .scene import marked, loads_of
+from .mass import marked
 
 
 def face_pressure(mass, faces, pressure):
@@ -43,26 +42,17 @@ def water_pressure(mass, faces, level, unit_weight=9810.0):
     return _summed(mass, faces, below)
 
 
-def apply_loads(ids, loads):
-    """Gives bodies lasting forces and torques, in the place of those that they have: ids (blocks,) of bodies(), loads
-    (blocks, 6). On a clump, those of its members.
-
-    YADE does not save lasting forces: call it again after O.load(), and O.forces.reset(resetAll=True) where other
-        bodies take the ids.
+def loads_of(loads, count):
+    """Forces and torques as an array (count, 6), torques 0 where only forces are given; ValueError for what is neither.
     """
-    import yade
-    forces, loads = {}, loads_of(loads, len(ids))
-    for one, load in zip(ids, loads):
-        body = yade.O.bodies[int(one)]
-        if body is None:
-            continue
-        carrier = owner(body)
-        arm = np.array(body.state.pos) - np.array(carrier.state.pos)
-        turned = np.concatenate([load[:3], load[3:] + np.cross(arm, load[:3])])
-        forces[carrier.id] = forces.get(carrier.id, 0.0) + turned
-    for one, load in forces.items():
-        yade.O.forces.setPermF(one, yade.Vector3(*load[:3]))
-        yade.O.forces.setPermT(one, yade.Vector3(*load[3:]))
+    try:
+        found = np.asarray(loads, float)
+    except (TypeError, ValueError):
+        found = np.zeros(0)
+    if found.ndim != 2 or found.shape[0] != count or found.shape[1] not in (3, 6) or not np.isfinite(found).all():
+        raise ValueError(
+            f"loads must be ({count}, 6) finite numbers, force and torque of each block, as of water_pressure()")
+    return np.column_stack([found, np.zeros((count, 6 - found.shape[1]))])
 
 
 def _summed(mass, faces, loaded):

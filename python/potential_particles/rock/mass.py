@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Slicing, and the blocks that it makes, as arrays."""
 import dataclasses
 import functools
@@ -121,15 +121,19 @@ class RockMass:
         """For each block the number of the piece of rock to which it belongs: blocks that regions alone have parted,
         and that still touch, are one.
         """
-        from scipy.sparse import coo_matrix
-        from scipy.sparse.csgraph import connected_components
         first, second = self._partner_blocks
         parents, regions = self.blocks["parent"], self.blocks["region"]
         of_region = self.faces["of"][self.partners["faces"][:, 0].astype(int)] == OF_REGION
         glued = of_region & (parents[first] == parents[second]) & (regions[first] == regions[second])
-        size = len(self)
-        graph = coo_matrix((np.ones(glued.sum()), (first[glued], second[glued])), shape=(size, size))
-        return connected_components(graph, directed=False)[1]
+        first, second = first[glued], second[glued]
+        # Each block takes the least number of those that it is glued to.
+        least, before = np.arange(len(self)), None
+        while not np.array_equal(least, before):
+            before = least.copy()
+            np.minimum.at(least, first, least[second])
+            np.minimum.at(least, second, least[first])
+            least = least[least]
+        return np.unique(least, return_inverse=True)[1].ravel()
 
     @property
     def blocks_of_pieces(self):
@@ -259,6 +263,22 @@ def planes_of(mass, planes, name):
     if strange.size:
         raise ValueError(f"{name} holds {strange[0]}: the domain has the planes 0 to {mass.planes - 1}")
     return planes.astype(int)
+
+
+def marked(chosen, count, name):
+    """(count,) of bool from numbers or from that."""
+    given = np.asarray(chosen)
+    if given.dtype == bool and given.shape == (count,):
+        return given
+    marked = np.zeros(count, bool)
+    try:
+        numbers = given.astype(int)
+        if given.dtype == bool or given.size and (numbers.min() < 0 or not np.array_equal(numbers, given)):
+            raise ValueError
+        marked[numbers] = True
+    except (IndexError, ValueError, TypeError):
+        raise ValueError(f"{name} must be numbers from 0 to {count - 1}, or {count} of bool") from None
+    return marked
 
 
 def _not_negative(value, name):

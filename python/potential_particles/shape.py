@@ -1,21 +1,15 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """A potential particle that waits to become bodies: its definition, its mass properties, and how it stands in its
 builder's frame.
 """
 import dataclasses
+import functools
 import math
 import typing
 
+import numpy as np
 
-# By definition (planes, r, k, R), of the shapes that have made particles: to measure a volume takes 10 ms.
-volumes = {}
-
-
-def definition(particle):
-    """A number of 64 bits by which the definition of a ConicPotentialParticle is known; the definitions themselves
-    would fill the memory.
-    """
-    return hash((tuple(particle.planes), particle.r, particle.k, particle.R))
+from ._core import Particle, Pose
 
 
 class Fit(typing.NamedTuple):
@@ -60,6 +54,16 @@ class Shape:
             f"<Shape {self.name}: {len(self.planes)} planes, r={self.r:.3g}, k={self.k:.3g}, R={self.R:.3g}, volume {self.volume:.4g}, "
             f"bounding radius {self.bounding_radius:.3g}{off}>")
 
+    @functools.cached_property
+    def particle(self):
+        """The Particle, in its principal frame. In YADE, body() makes a body of a shape."""
+        return Particle(np.array(self.planes).reshape(-1, 4), self.r, self.k, self.R)
+
+    @property
+    def pose(self):
+        """The Pose of the principal frame in the builder's: the particle stands there as it was built."""
+        return Pose(self.centroid, self.orientation)
+
     @property
     def equivalent_diameter(self):
         """Diameter of the ball of the same volume, length."""
@@ -78,10 +82,3 @@ class Shape:
             centroid=tuple(one * factor for one in self.centroid), bounding_radius=self.bounding_radius * factor,
             sharp_volume=self.sharp_volume and self.sharp_volume * factor**3,
             fit=self.fit and self.fit._replace(volume=self.fit.volume * factor**3))
-
-    def particle(self, **attributes):
-        """A new ConicPotentialParticle of this shape; `attributes` are further ones of it (isBoundary, color, ...)."""
-        from yade.wrapper import ConicPotentialParticle
-        made = ConicPotentialParticle(planes=list(self.planes), r=self.r, k=self.k, R=self.R, **attributes)
-        volumes[definition(made)] = self.volume
-        return made

@@ -1,4 +1,4 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Points and triangles of a GTS file: a line of counts, the points, the edges as pairs of points, the triangles as
 three edges.
 

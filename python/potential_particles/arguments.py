@@ -1,8 +1,12 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Numbers as a script gives them: each is checked before anything is made of it."""
 import math
 
 import numpy as np
+
+
+class SceneWarning(UserWarning):
+    """What is allowed and may surprise: shapes that lose volume, and, in YADE, what check() finds."""
 
 # Of what a script gives. Fifth powers of lengths, as moments of inertia are, and what is made of a few of them, are
 # doubles with all their digits.

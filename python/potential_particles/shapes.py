@@ -1,8 +1,10 @@
-# SPDX-License-Identifier: GPL-3.0-or-later
+# SPDX-License-Identifier: MIT OR Apache-2.0
 """Shapes of particles from what a script has: planes, points, a file, or the name of a solid.
 
-    from potential_particles import body, shapes
-    O.bodies.append(body(shapes.cuboid((1, 1, 0.5)), material, position=(0, 0, 2)))
+    from potential_particles import shapes
+    brick = shapes.cuboid((1, 1, 0.5))
+    brick.particle                                                            # for detect() and its like
+    O.bodies.append(body(brick, material, position=(0, 0, 2)))                # in YADE
 
 Every function returns a Shape. What `rounding`, `k`, `r` and `R` do: docs/shapes.md. In short:
 
@@ -20,7 +22,6 @@ import numpy as np
 
 from . import fitting
 from .arguments import LARGE, MOST_PLANES, bearable, positive, rows, vector, whole, within
-from .convex_parts import clump_from_mesh
 from .mesh_file import from_mesh
 from .polyhedron import Polyhedron, round_shape, rounded
 from .random_rock import random_rock
@@ -29,8 +30,8 @@ from .shape import Fit, Shape
 from .voxels import from_voxels, voxel_image
 
 __all__ = [
-    "Fit", "Shape", "capsule", "clump_from_mesh", "cone", "cuboid", "cylinder", "ellipsoid", "from_mesh", "from_planes",
-    "from_vertices", "from_voxels", "platonic_solid", "prism", "random_rock", "sphere", "superquadric", "voxel_image"
+    "Fit", "Shape", "capsule", "cone", "cuboid", "cylinder", "ellipsoid", "from_mesh", "from_planes",
+    "from_surface", "from_vertices", "from_voxels", "platonic_solid", "prism", "random_rock", "sphere", "superquadric", "voxel_image"
 ]
 
 
@@ -48,16 +49,29 @@ def from_planes(planes, rounding=None, k=SPHERICITY, R=None, name="planes", *, r
     return _rounded(Polyhedron.of_planes(given[:, :3], given[:, 3]), Rounding(rounding, k, r, R), name)
 
 
-def from_vertices(points, rounding=None, k=SPHERICITY, R=None, name="vertices", planes=None, error=None, *, r=None):
+def from_surface(points, triangles, rounding=None, k=SPHERICITY, R=None, name="surface", known=0.0, *, r=None):
+    """Of a closed convex surface, points (n, 3) and triangles (m, 3), numbers of points, whose faces are those of the
+    shape. known: as of from_vertices. A surface that is open, not convex or crosses itself is a ValueError that says
+    where.
+    """
+    points = bearable(rows(points, 3, "points", "the three numbers x, y, z"), "points")
+    return _rounded(Polyhedron.of_surface(points, triangles, _known(known)), Rounding(rounding, k, r, R), name)
+
+
+def from_vertices(points, rounding=None, k=SPHERICITY, R=None, name="vertices", planes=None, error=None, known=0.0, *,
+                  r=None):
     """Of the convex hull of points (x, y, z), rounded inwards: no part lies outside the hull.
+
+    known: the length to which the points are known, where that is less than all their digits: triangles of the hull
+    within it of the plane of a larger one are one face with it.
 
     planes=N, error=e: few planes that keep the volume of the hull, as from_mesh has them; r is chosen then, if neither
     it nor rounding is given.
     """
     points = bearable(rows(points, 3, "points", "the three numbers x, y, z"), "points")
     if planes is None and error is None:
-        return _rounded(Polyhedron.of_points(points), Rounding(rounding, k, r, R), name)
-    hull = Polyhedron.of_points(points)
+        return _rounded(Polyhedron.of_points(points, _known(known)), Rounding(rounding, k, r, R), name)
+    hull = Polyhedron.of_points(points, _known(known))
     samples = np.concatenate([hull.corners, hull.corners[hull.triangles].mean(1)])
     return fitting.warn_of_volume(
         fitting.of_surface(hull, samples, hull.volume, Rounding(rounding, k, r, R), name, planes, error), name)
@@ -146,5 +160,20 @@ def _round(form, sizes, planes, size, rounding, name):
     return rounding.told_of(round_shape(form, sizes, name, planes, (r if rounding.is_chosen else None, k, R)))
 
 
+def _known(length):
+    return within(length, 0.0, math.inf, "known")
+
+
 def _lengths(radius, height):
     return positive(radius, "radius"), positive(height, "height")
+
+
+def __getattr__(name):
+    # Its error is measured by the clumps of YADE.
+    if name == "clump_from_mesh":
+        try:
+            from .convex_parts import clump_from_mesh
+        except ImportError:
+            raise AttributeError("shapes.clump_from_mesh makes clumps of YADE: it needs YADE and its plugin") from None
+        return clump_from_mesh
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
