@@ -30,7 +30,7 @@ LAYERS = [
     ("both plugins", "plugin-common", "*.[ch]pp", r"\bthrow [\w:]+\("),
 ]
 PYTHON = [("YADE plugin, Python", "yade-glue/python"), ("wheel, Python", "python/potential_particles"),
-          ("LAMMPS plugin, Python", "lammps-glue/python")]
+          ("LAMMPS plugin, Python", "python/potential_particles/lammps")]
 ERRORS = re.compile(r"(Error|Exception|Warning|SystemExit)$")
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 ROOT, OUT = Path(__file__).resolve().parents[2], Path("out/equilibrium")
-sys.path.append(str(ROOT / "yade-glue/python/potential_particles/output"))
+sys.path.append(str(ROOT / "python/potential_particles"))
 from equilibrium_picture import Block, picture
 
 for name, flows in json.loads((OUT / "drawn.json").read_text()).items():

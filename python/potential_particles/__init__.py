@@ -117,5 +117,5 @@ _MOVED = {"builders": "shapes", "slicing": "rock"}
 
 def __getattr__(name):
     if name in _MOVED:
-        raise AttributeError(f"potential_particles.{name} of version 0.1 is potential_particles.{_MOVED[name]} now: docs/wheel.md")
+        raise AttributeError(f"potential_particles.{name} is potential_particles.{_MOVED[name]} now (docs/wheel.md)")
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -194,6 +194,26 @@ def tunnel(outcome):
     yield outcome.pictures("key_blocks.png", "fallen.png")
 
 
+def the_slope(outcome):
+    found = outcome.summary()
+    yield f"a factor below 1, above that of the weakest wedge alone: {found}", 0.66 < found["factor"] < 1 and found["blocks"] == 107
+    yield outcome.pictures("keys.png", "limit.png")
+    return found
+
+
+@part("slope-without-yade", "env", "PYTHONPATH=yade-glue/build/python", "/usr/bin/python3", "examples/slope.py")
+def slope_without_yade(outcome):
+    yield from the_slope(outcome)
+
+
+@example("slope", SECONDS=0.3)
+def slope(outcome):
+    found = yield from the_slope(outcome)
+    yield f"what slides in the analysis moves in the run: {found}", found["blocks_that_moved"] >= 4
+    yield outcome.pictures("run.png")
+    yield "files for LAMMPS", all((outcome.folder / name).is_file() for name in ("lammps.data", "lammps.lmp", "lammps.shapes"))
+
+
 @example("voxels", BODIES=12)
 def voxels(outcome):
     found = outcome.summary()

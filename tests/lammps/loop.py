@@ -4,7 +4,7 @@ other.
 """
 import numpy as np
 from potential_particles import Pose, Wall, contact_with_plane, detect
-from potential_particles_lammps.shapes import principal
+from potential_particles.lammps.shapes import principal
 
 
 def quaternion(R):

@@ -8,8 +8,9 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
-from potential_particles_lammps import Particle, polyhedron, write_shapes
-from potential_particles_lammps.pictures import QUATERNION, frames
+from potential_particles import Particle
+from potential_particles.lammps import polyhedron, write_shapes
+from potential_particles.lammps.pictures import QUATERNION, frames
 
 TOP = Path(__file__).resolve().parents[2]
 SECONDS = 300

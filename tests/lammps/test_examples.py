@@ -5,8 +5,8 @@ import shutil
 import numpy as np
 from scene import LAMMPS, TOP, process
 
-from potential_particles_lammps import read_shapes, write_vtk
-from potential_particles_lammps.pictures import frames, polydata
+from potential_particles.lammps import read_shapes, write_vtk
+from potential_particles.lammps.pictures import frames, polydata
 
 
 def example(name, folder, *variables):

@@ -3,8 +3,8 @@
 
 import numpy as np
 from loop import Loop, matrix
-from potential_particles_lammps.pictures import frames
-from potential_particles_lammps.shapes import principal
+from potential_particles.lammps.pictures import frames
+from potential_particles.lammps.shapes import principal
 from scene import (DENSITY, DT, FRICTION, SHEAR, STIFFNESS, TOP, lammps, long, process, random_bodies, run, shapes,
                    state, thermo)
 

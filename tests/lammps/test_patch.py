@@ -2,8 +2,8 @@
 """Contacts by patch, with the law of joints: closed forms, YADE, several ranks, restarts, bonds, and what is refused.
 """
 import numpy as np
-from potential_particles_lammps import polyhedron, write_shapes
-from potential_particles_lammps.pictures import frames
+from potential_particles.lammps import polyhedron, write_shapes
+from potential_particles.lammps.pictures import frames
 from test_walls import floor as tiles, write_stl
 from scene import DEFAULTS, SCRIPT, TOP, lammps, long, process, random_bodies, refused, run, shapes, state, thermo
 from test_motion import YADE

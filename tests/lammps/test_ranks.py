@@ -9,8 +9,8 @@ import numpy as np
 from scene import (DEFAULTS, FRICTION, LAMMPS, SCRIPT, SHEAR, STIFFNESS, lammps, long, random_bodies, run, shapes,
                    state, thermo, write)
 
-from potential_particles_lammps.pictures import frames
-from potential_particles_lammps.shapes import principal
+from potential_particles.lammps.pictures import frames
+from potential_particles.lammps.shapes import principal
 
 FLOOR = f"fix floor all wall/potential/particle {STIFFNESS} {SHEAR} {FRICTION} 0.3 plane 0 0 0 0 0 1"
 

@@ -6,8 +6,8 @@ import numpy as np
 from scene import DEFAULTS, FRICTION, SCRIPT, SHEAR, STIFFNESS, lammps, refused, run, shapes, state, thermo, write
 from test_walls import floor, write_stl
 
-from potential_particles_lammps import write_shapes
-from potential_particles_lammps.pictures import frames
+from potential_particles.lammps import write_shapes
+from potential_particles.lammps.pictures import frames
 
 WALL = f"{STIFFNESS} {SHEAR} {FRICTION} 0.3"
 PLANE = f"fix floor all wall/potential/particle {WALL} plane 0 0 0 0 0 1"

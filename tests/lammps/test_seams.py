@@ -7,7 +7,7 @@ from scene import SCRIPT, SHEAR, STIFFNESS, TOP, lammps, process, run, shapes, t
 from test_walls import floor, write_stl
 
 from potential_particles import Particle, Pose, Triangle, contact_with_triangle
-from potential_particles_lammps.pictures import frames
+from potential_particles.lammps.pictures import frames
 
 YADE = TOP / "yade-glue" / "build" / "python" / "potential_particles"
 PUSHES = ("fx", "fy", "fz", "tqx", "tqy", "tqz")

@@ -20,6 +20,7 @@ from .files import read_blockgen, read_dfn
 from .joints import Joint, JointSet, joint, polygon, rectangle
 from .loads import face_pressure, water_pressure
 from .mass import Block, RockMass, slice
+from .picture import plot
 from .stability import limit_analysis, limit_scene
 
 # Parts for YADE may be installed elsewhere than a wheel.
@@ -27,7 +28,7 @@ __path__ = pkgutil.extend_path(__path__, __name__)
 
 __all__ = [
     "COLOURS", "Block", "Domain", "Joint", "JointSet", "KeyBlock", "RockMass", "face_pressure", "joint", "key_blocks",
-    "limit_analysis", "limit_scene", "polygon", "read_blockgen", "read_dfn", "rectangle", "slice", "summary",
+    "limit_analysis", "limit_scene", "plot", "polygon", "read_blockgen", "read_dfn", "rectangle", "slice", "summary",
     "water_pressure"
 ]
 _OF_YADE = {

@@ -42,7 +42,7 @@ from . import __version__, _core, builds, window
 from .bodies import add_packing, body, conic_particle, guard_append
 from .clumps import add_clump, clump
 from .joints import bond_contacts, use_joints
-from .lammps import to_lammps
+from .lammps_files import to_lammps
 from .limit_analysis import limit_analysis
 from .measures import (body_stresses, coordination_number, extrema, fabric_tensor, overlap_ratio, porosity,
                        solid_volume, stress)

@@ -10,7 +10,7 @@
     light.py       sun and sky
     picture.py     the picture of a scene
     recorder.py    frames for ParaView, while the scene runs
-    equilibrium_picture.py, limit_picture.py    forces and mechanism of limit analysis, without and with YADE's bodies
+    limit_picture.py   forces and mechanism of limit analysis
 """
 from .limit_picture import plot_equilibrium
 from .mesh import Mesh, mesh, save_mesh

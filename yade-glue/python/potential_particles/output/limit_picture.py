@@ -6,10 +6,10 @@ import numpy as np
 import yade
 
 from ..bodies import is_free, owner
+from ..equilibrium_picture import Block, picture
 from ..files import written
 from ..limit_state import clipped
 from .drawn import ShapeMeshes
-from .equilibrium_picture import Block, picture
 from .mesh import rotation_matrix
 
 # Meshes of bodies that have no flat faces, over their size.

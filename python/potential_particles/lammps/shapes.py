@@ -2,8 +2,9 @@
 """Files of shapes, as `fix potential/particle/shapes` reads them."""
 import numpy as np
 
-from potential_particles import Particle
-from potential_particles.files import written
+from .._core import Particle
+from ..files import written
+from ..shape import Shape
 
 # Of the centre of mass over the radius, and of products of inertia over the largest moment; of the mass, relative.
 CENTRED, ROUNDS, TOLERANCE = 1e-9, 20, 1e-9
@@ -57,7 +58,7 @@ def _axes(inertia):
 
 
 def write_shapes(path, shapes):
-    """shapes: {name: Particle}. Each is written about its centre of mass and in principal axes; returns {name: (centre,
+    """shapes: {name: Particle or Shape}. Each is written about its centre of mass and in principal axes; returns {name: (centre,
     rotation)}, in the old frame.
     """
     frames = {}
@@ -65,7 +66,7 @@ def write_shapes(path, shapes):
         for name, particle in shapes.items():
             if not name or any(c.isspace() or c == "#" for c in name):
                 raise ValueError(f"shape name {name!r}: it must be one word without '#'")
-            own, frames[name] = principal(particle)
+            own, frames[name] = principal(particle.particle if isinstance(particle, Shape) else particle)
             file.write(f"shape {name}\nr {own.r!r}\nk {own.k!r}\nR {own.R!r}\n")
             file.writelines("plane " + " ".join(repr(float(x)) for x in row) + "\n" for row in own.planes)
             file.write("end\n")

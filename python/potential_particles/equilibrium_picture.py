@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Pictures of an answer of limit analysis: forces at corners in the colour of the friction used, and the mechanism as
-arrows and as displaced blocks. Without YADE: benches/equilibrium/plot.py draws by it, too.
+arrows and as displaced blocks.
 """
 import dataclasses
 
@@ -15,12 +15,13 @@ STONE, HELD, EDGE, ARROW = (0.91, 0.886, 0.839), (0.8, 0.8, 0.8), "#555555", "#b
 
 @dataclasses.dataclass(frozen=True)
 class Block:
-    """A body: faces [(m, 3)] and centre, world frame; linear and angular velocity; whether it is held."""
+    """A body: faces [(m, 3)] and centre, world frame; linear and angular velocity; whether it is held; its colour."""
     faces: list
     centre: np.ndarray
     linear: np.ndarray
     angular: np.ndarray
     held: bool = False
+    colour: tuple = STONE
 
     def moved(self, way):
         """Faces after this way, to first order."""
@@ -93,7 +94,7 @@ def _draw_blocks(axes, blocks, way, axes_of_view):
             normal = np.cross(face[1] - face[0], face[2] - face[0])
             light = abs(normal @ axes_of_view[2]) / (np.linalg.norm(normal) or 1.0)
             faces.append(face @ axes_of_view.T)
-            colours.append((0.7 + 0.3 * light) * np.array(HELD if block.held else STONE))
+            colours.append((0.7 + 0.3 * light) * np.array(HELD if block.held else block.colour))
             free += [] if block.held else [faces[-1][:, :2]]
     # The farthest first.
     order = np.argsort([face[:, 2].mean() for face in faces])

@@ -8,9 +8,8 @@ import sys
 
 import numpy as np
 
-from potential_particles.files import written
-from potential_particles.graphics import with_graphics
-
+from ..files import written
+from ..graphics import with_graphics
 from .shapes import read_shapes
 
 QUATERNION = [f"d2_orientation[{n}]" for n in (1, 2, 3, 4)]
@@ -163,7 +162,7 @@ def _save(window, renderer, file, zoom, pixels):
 
 
 def main():
-    """python3 -m potential_particles_lammps.pictures DUMP SHAPES NAME[,NAME...] STEM [MESH.stl [DEGREES]]"""
+    """python3 -m potential_particles.lammps.pictures DUMP SHAPES NAME[,NAME...] STEM [MESH.stl [DEGREES]]"""
     if len(sys.argv) < 5:
         raise SystemExit(main.__doc__)
     known = read_shapes(sys.argv[2])
