@@ -6,8 +6,10 @@ import csv
 import dataclasses
 import json
 import re
+from pathlib import Path
 
 YADE = ("scripts/yade.sh", "-j1")
+PACKAGE = Path(__file__).resolve().parents[2] / "yade-glue/build/python"
 
 
 class Outcome:
@@ -201,7 +203,7 @@ def the_slope(outcome):
     return found
 
 
-@part("slope-without-yade", "env", "PYTHONPATH=yade-glue/build/python", "/usr/bin/python3", "examples/slope.py")
+@part("slope-without-yade", "/usr/bin/python3", "examples/slope.py", PYTHONPATH=PACKAGE)
 def slope_without_yade(outcome):
     yield from the_slope(outcome)
 
