@@ -7,7 +7,7 @@ With <t> = max(t, 0) a particle is {x: S(x) <= 1} in its local frame,
 
 A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a
 Batch those of all pairs of a step on numpy arrays. `builders` makes particles of points, surfaces and names of solids,
-`slicing` cuts rock into blocks, `planar` has particles of the plane. Lengths are in the caller's unit, quaternions (w,
+`slicing` cuts rock into blocks. Particle.in_plane and Pose.in_plane make bodies of two dimensions. Lengths are in the caller's unit, quaternions (w,
 x, y, z), vectors in world axes unless said otherwise.
 
 In YADE, with the plugin, the names of `potential_particles.yade` stand here, too.
@@ -20,7 +20,7 @@ __version__ = "0.2.0"
 # Parts for YADE may be installed elsewhere than a wheel.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
-from . import builders, equilibrium, planar, slicing  # noqa: E402
+from . import builders, equilibrium, slicing  # noqa: E402
 from ._core import (  # noqa: E402
     FAILED,
     OVERLAPPING,
@@ -98,7 +98,6 @@ __all__ = [
     "patch_of_contact",
     "patch_on_plane",
     "patch_on_triangle",
-    "planar",
     "pose_type",
     "slicing",
 ]

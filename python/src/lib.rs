@@ -21,7 +21,6 @@
 //! | `packing` | packings |
 //! | `slicing` | rock masses |
 //! | `equilibrium` | whether a scene of blocks stands |
-//! | `planar` | particles of the plane |
 
 mod arrays;
 mod batch;
@@ -35,7 +34,6 @@ mod packing;
 mod particle;
 mod patch;
 mod pickles;
-mod planar;
 mod polyhedron;
 mod pose;
 mod records;
@@ -62,6 +60,5 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     polyhedron::add(module)?;
     packing::add(module)?;
     slicing::add(module)?;
-    equilibrium::add(module)?;
-    planar::add(module)
+    equilibrium::add(module)
 }
