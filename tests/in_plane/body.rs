@@ -80,7 +80,7 @@ pub fn midway(a: &Body, b: &Body) -> Contact {
 }
 
 /// Minimum of a convex function on an interval, to the last digit that its values tell.
-fn least(mut low: f64, mut high: f64, f: &dyn Fn(f64) -> f64) -> (f64, f64) {
+pub fn least(mut low: f64, mut high: f64, f: &dyn Fn(f64) -> f64) -> (f64, f64) {
     let golden = 0.5 * (5f64.sqrt() - 1.0);
     let at = |x: f64| (x, f(x));
     let (mut left, mut right) = (at(high - golden * (high - low)), at(low + golden * (high - low)));

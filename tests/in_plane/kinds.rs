@@ -164,10 +164,12 @@ fn differences(of: Of, found: &dyn Fn([f64; 6]) -> Contact) -> [f64; 6] {
 
 #[test]
 fn derivatives_are_differences_and_leave_nothing_beside_the_plane() {
-    let (a, b) = (Body::square(0.5, 0.1, 0.1), Body::square(0.4, 0.08, 0.2));
     let settings_of = |formulation| Settings::default().with_formulation(formulation).with_gap_tolerance(1e-15);
-    let mut count = 0;
-    for (i, formulation) in (0..12).flat_map(|i| [(i, Formulation::Midway), (i, Formulation::Closest)]) {
+    let mut count = [0; 2];
+    for (i, k, formulation) in (0..12)
+        .flat_map(|i| [(i, 0.1, Formulation::Midway), (i, 0.1, Formulation::Closest), (i, 0.0, Formulation::Midway)])
+    {
+        let (a, b) = (Body::square(0.5, 0.1, k), Body::square(0.4, 0.08, 2.0 * k));
         let (settings, way) = (settings_of(formulation), 0.5 * f64::from(i));
         let place = |[x, y, turn]: [f64; 3]| Pose::in_plane([x, y], turn).unwrap();
         let (at_a, at_b) = ([0.1, 0.2, 0.3], [0.1 + 0.85 * way.cos(), 0.2 + 0.85 * way.sin(), 1.0 + way]);
@@ -178,12 +180,13 @@ fn derivatives_are_differences_and_leave_nothing_beside_the_plane() {
             detect(&particle_a, &pose_a, &particle_b, &pose_b, &settings, None).unwrap()
         };
         let contact = found([0.0; 6]);
-        if contact.kind == Kind::Separated || contact.formulation != formulation {
+        // In the cores of both there are none.
+        if contact.kind == Kind::Separated || contact.formulation != formulation || contact.s < 1e-3 {
             continue;
         }
-        count += 1;
         let (pose_a, pose_b) = (place(at_a), place(at_b));
         let all = contact_derivatives(&particle_a, &pose_a, &particle_b, &pose_b, &contact, &settings).unwrap();
+        count[usize::from(k > 0.0)] += 1;
         let ContactDerivatives { s, overlap, normal, point, .. } = all;
         let rows: [(PoseRow, Of); 6] = [
             (s, &|c| c.s),
@@ -226,7 +229,7 @@ fn derivatives_are_differences_and_leave_nothing_beside_the_plane() {
         assert!(poses.iter().all(|pose| pose.shift.z == 0.0 && pose.turn.x == 0.0 && pose.turn.y == 0.0));
         assert!(shape.planes.iter().all(|plane| plane.normal.z == 0.0));
     }
-    assert!(count > 12, "{count}");
+    assert!(count[0] > 2 && count[1] > 12, "{count:?}");
 }
 
 /// The inertia of a sheet: moments about x and y add up to that about z, and the area is that of the cut through a

@@ -1,9 +1,9 @@
 //! What holds for every pair of polygons.
 
-use crate::body::{Body, midway, searched_closest, searched_midway, solve};
+use crate::body::{Body, least, midway, searched_closest, searched_midway, solve};
 use nalgebra::Vector3;
 use potential_particles::{BackEnd, Flags, Formulation, Kind, PairState, Particle, ParticleError, Plane, Pose};
-use potential_particles::{Role, Settings, closest_point, detect};
+use potential_particles::{Role, Settings, Wall, closest_point, contact_with_plane, detect};
 use proptest::prelude::*;
 use std::f64::consts::TAU;
 
@@ -243,6 +243,30 @@ proptest! {
         }
         // A corner of a triangle of lines reaches further than the round one of the particle.
         prop_assert!(particle.bounding_radius() < 3.0 * fullest, "{} for {fullest}", particle.bounding_radius());
+    }
+
+    #[test]
+    fn on_a_line_the_least_scale_is_what_a_search_finds((body, _) in pairs(), way in 0.0..TAU, share in 0.05..1.2) {
+        let radius = body.particle().bounding_radius();
+        let normal = Vector3::new(way.cos(), way.sin(), 0.0);
+        let along = Vector3::new(-way.sin(), way.cos(), 0.0);
+        let point: Vector3<f64> = body.centre() + share * radius * normal;
+        let at = |t: f64| body.s(&(point + t * along));
+        let searched = least(-3.0 * radius, 3.0 * radius, &at).1;
+        let line = Wall::new(point.into(), normal.into()).unwrap();
+        let settings = Settings::default().with_solve_separated(true);
+        for gap_tolerance in [settings.gap_tolerance, 1e-14] {
+            let settings = settings.with_gap_tolerance(gap_tolerance);
+            let found = contact_with_plane(&body.particle(), &body.pose(), &line, &settings, None).unwrap();
+            let allowed = found.gap + body.noise();
+            prop_assert!((found.s - searched).abs() <= allowed + 1e-9 * searched, "{} for {searched}, {found:?}", found.s);
+            prop_assert!(body.s(&found.on_boundary) <= found.s + allowed, "{found:?}");
+            prop_assert!([found.point, found.branch, found.normal, found.on_boundary].iter().all(|v| v.z == 0.0));
+            if found.kind == Kind::Overlapping {
+                prop_assert!((body.s(&found.on_particle) - 1.0).abs() <= 4.0 * body.noise(), "{found:?}");
+                prop_assert!(((found.on_particle - found.on_boundary).norm() - found.overlap).abs() < 1e-13);
+            }
+        }
     }
 
     #[test]
