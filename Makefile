@@ -62,7 +62,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
-  PLANAR=50000      stress: number of pairs of the plane; by default POSES/20
+  IN_PLANE=50000    stress: number of pairs in the plane; by default POSES/20
   HULLS=100000      stress: number of hulls and bodies of half-spaces, against exact arithmetic; by default POSES/10
   PATCHES=1000      stress: number of pairs whose patches are held against brute force; by default POSES/1000
   MEMORIES=50000    stress: number of pairs solved from memories of any bytes; by default POSES/20
@@ -304,7 +304,7 @@ stress: OUTPUT := $(or $(OUTPUT),out/stress)
 stress:
 	$(call heading,Stress)
 	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) \
-	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PLANAR),--planar $(PLANAR)) $(if $(PATCHES),--patches $(PATCHES)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
+	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(IN_PLANE),--in-plane $(IN_PLANE)) $(if $(PATCHES),--patches $(PATCHES)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
 	/usr/bin/python3 tools/stress/plot.py $(OUTPUT); exit $$status
 
 fuzz: export FUZZ_SECONDS ?= 60

@@ -19,7 +19,7 @@ built=${CARGO_TARGET_DIR:-target}/fuzz
 cargo build --quiet --release --manifest-path fuzz/Cargo.toml --target "$host" --target-dir "$built"
 
 status=0
-for target in ${TARGETS:-particle detect pairs_file walls planar memories mass}; do
+for target in ${TARGETS:-particle detect pairs_file walls memories mass}; do
     mkdir -p "out/fuzz/$target"
     printf '%s\n' "$target"
     "$built/$host/release/$target" "out/fuzz/$target" "fuzz/seeds/$target" \

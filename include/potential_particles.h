@@ -204,10 +204,6 @@
 // so that bodies and threads may share one.
 typedef struct pp_particle pp_particle;
 
-// A validated particle of the plane. Created by pp_particle_new_2d, released by
-// pp_particle_free_2d; immutable, so that bodies and threads may share one.
-typedef struct pp_particle_2d pp_particle_2d;
-
 // What every function of the C interface returns: PP_OK or a positive code.
 typedef int32_t pp_status;
 
@@ -269,9 +265,8 @@ typedef struct pp_pair_state {
     double last_contact[40];
 } pp_pair_state;
 
-// The answer for one pair; in the plane (pp_contact_2d) vectors have two components. Frames: world axes
-// unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields that do not
-// apply are NaN.
+// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's unit; s, weight
+// and gap have no unit. Of particles in the plane every vector has z = 0. Fields that do not apply are NaN.
 typedef struct pp_contact {
     // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
     int32_t kind;
@@ -497,7 +492,7 @@ typedef struct pp_patch_state {
 // The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
 // both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
 // (force/length^3). What is proportional to K is given over K. World axes; lengths in the caller's unit.
-// Its normal n points from A to B.
+// Its normal n points from A to B. In the plane it is a curve: areas are lengths, all is per unit of depth.
 typedef struct pp_patch {
     // Sum of PP_PATCH_... bits.
     uint32_t flags;
@@ -506,7 +501,7 @@ typedef struct pp_patch {
     // Estimated relative error, the largest of three: of the force; of the torque, relative to |force| times
     // the reach of the patch; of the energy, if asked for.
     double error;
-    // Estimated relative error of the area.
+    // Estimated relative error of the area; NaN in the plane.
     double area_error;
     // pp_particle_depth_length of A, plus that of B for two particles.
     double length;
@@ -564,153 +559,6 @@ typedef struct pp_patch_derivatives {
     double torque_on_b[3][12];
 } pp_patch_derivatives;
 
-// Where a body of the plane is: world = rotation(angle) * local + position.
-typedef struct pp_pose_2d {
-    // Centre of the particle (origin of its local frame), world frame, length units of the caller.
-    double position[2];
-    // Angle of the local axes in the world, radians, anticlockwise, from -2^30 to 2^30; beyond, take
-    // whole turns off. It counts as exact.
-    double angle;
-} pp_pose_2d;
-
-// The answer for one pair; in the plane (pp_contact_2d) vectors have two components. Frames: world axes
-// unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields that do not
-// apply are NaN.
-typedef struct pp_contact_2d {
-    // PP_SEPARATED or PP_OVERLAPPING. A failed solve has no kind: it returns a status.
-    int32_t kind;
-    // The formulation that the geometry below answers (PP_MIDWAY if PP_FLAG_SLACK is set).
-    uint32_t formulation;
-    // The back end that answered: PP_FAST or PP_CONE_PROGRAM.
-    uint32_t back_end;
-    // Sum of PP_FLAG_... bits.
-    uint32_t flags;
-    // Pairs of quadratics solved; rounds of a contact carried on; interior-point iterations of the cone-program
-    // back end.
-    uint32_t iterations;
-    // Always 0.
-    uint32_t reserved;
-    // Midway: t, the common scale at which the two particles touch at one point; t < 1 overlap.
-    // Closest: s_A at P2. Rejected pairs: a lower bound, >= 1. No unit.
-    double s;
-    // Closest: s_B at P1; NaN for midway.
-    double s_b;
-    // Weight u of B, in [0, 1]: (1-u) grad S_A + u grad S_B = 0 at the solution (closest: at P2).
-    double weight;
-    // Bound on the error of s, and of s_b: |s - s*| <= gap. Proved for answers in extended precision
-    // (PP_FLAG_EXTENDED); in doubles rounding is counted to first order, so that it is an estimate
-    // (docs/theory.md).
-    double gap;
-    // Estimated bound on the distance of the point (closest: of each of P1 and P2) to the exact optimum,
-    // length: of first order in the rounding of the data.
-    double point_bound;
-    // Overlap (YADE: penetrationDepth), length, >= 0 when overlapping (0 where s < 1 by rounding alone); NaN
-    // when separated.
-    double overlap;
-    // Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
-    // of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
-    // defined even where flat-faced cores overlap.
-    double normal[2];
-    // Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
-    double point[2];
-    // Contact point minus position of A: exact lever arm even far from the world origin.
-    double branch_a[2];
-    // Contact point minus position of B.
-    double branch_b[2];
-    // Point on the boundary of A inside B, world frame; P1 of closest. NaN when separated.
-    double point_on_a[2];
-    // Point on the boundary of B inside A, world frame; P2 of closest. NaN when separated.
-    double point_on_b[2];
-    // Separated: lower bound on the distance between the two particles, length, with the rounding of s and
-    // of their bounding volumes estimated; 0 when none is known.
-    // NaN when overlapping.
-    double distance;
-} pp_contact_2d;
-
-// One closest point alone; frames and units as in struct pp_contact.
-typedef struct pp_closest_2d {
-    // 1 when there is no such point: for PP_ON_A because the centre of B (for k = 0, its core) lies inside A,
-    // for PP_ON_B the reverse. The numbers below are NaN then. Else 0.
-    uint32_t slack;
-    // Always 0.
-    uint32_t reserved;
-    // Scale of the other particle at the point: s_B at P1, s_A at P2. No unit.
-    double s;
-    // Bound on the error of s: |s - s*| <= gap (as in struct pp_contact).
-    double gap;
-    // Estimated bound on the distance of the point to the exact optimum, length.
-    double point_bound;
-    // P1 or P2, world frame.
-    double point[2];
-    // The point minus position of A: exact lever arm even far from the world origin.
-    double branch_a[2];
-    // The point minus position of B.
-    double branch_b[2];
-} pp_closest_2d;
-
-// The contact patch of two particles of the plane, a curve: the fields of struct pp_patch, with lengths in
-// place of areas, all per unit of thickness.
-typedef struct pp_patch_2d {
-    // Sum of PP_PATCH_... bits.
-    uint32_t flags;
-    // Always 0.
-    uint32_t reserved;
-    // Estimated error of the force over its size.
-    double error;
-    // The length by which 1 - s is multiplied, of A and B together.
-    double depth_length;
-    // The force on B over K, length^2.
-    double force[2];
-    // The torque on B about the contact point over K, anticlockwise, length^3.
-    double torque;
-    // The point on the line of action at the height of the patch, world frame.
-    double pressure_centre[2];
-    // The same minus position of A.
-    double branch_a[2];
-    // The same minus position of B.
-    double branch_b[2];
-    // Length of the patch.
-    double length;
-    // Centroid minus pressure_centre.
-    double centroid[2];
-    // Integral of |y|^2 over the length about the centroid, length^3.
-    double second_moment;
-    // Mean of p/K, an overlap, length.
-    double mean_depth;
-    // Largest p/K, that of the contact point, length.
-    double largest_depth;
-    // Elastic energy over K, length^3; NaN unless asked for.
-    double energy;
-    // Change of force and torque on B about the contact point, over K, with a shift and a turn of A: rows and
-    // columns x, y and angle. NaN where it is carried on.
-    double stiffness[9];
-} pp_patch_2d;
-
-// A point of quadrature on a patch of the plane.
-typedef struct pp_patch_point_2d {
-    // Its place minus the contact point, world axes.
-    double position[2];
-    // Its share of the length.
-    double length;
-    // p/K = depth_length (1 - s) there, length.
-    double depth;
-    // Unit normal of the patch, from A to B, world axes.
-    double normal[2];
-} pp_patch_point_2d;
-
-// Area and second moments of a particle of the plane of unit density, in its local frame.
-typedef struct pp_area_properties {
-    // Area, length^2.
-    double area;
-    // Centroid, local frame.
-    double centroid[2];
-    // xx, yy, xy of the integral of x x^T dA about the local origin, length^4. xx + yy is the moment of inertia
-    // of a body that turns in the plane.
-    double second_moment[3];
-    // Estimated bound on the relative error, as in struct pp_mass_properties.
-    double error;
-} pp_area_properties;
-
 // The call did what it says; its outputs are written.
 #define PP_OK 0
 
@@ -720,8 +568,7 @@ typedef struct pp_area_properties {
 // A pose holds a position that is not finite.
 #define PP_BAD_POSITION 2
 
-// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150]; or, in the
-// plane, an angle that is not finite, or beyond 2^30 radians.
+// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150].
 #define PP_BAD_ORIENTATION 3
 
 // A point or direction is not finite, a direction has no length, or a contact was not filled or is not
@@ -761,6 +608,10 @@ typedef struct pp_area_properties {
 
 // The contact has no derivative: gradients or curvatures vanish there, as in the core of both bodies.
 #define PP_NO_DERIVATIVE 15
+
+// One particle lies in the plane z = 0 and the other does not; or, of one that does, a pose, the normal of a
+// plane or a triangle leaves that plane.
+#define PP_NOT_IN_PLANE 16
 
 // A plane holds a coefficient that is not finite.
 #define PP_PLANE_NOT_FINITE 20
@@ -809,8 +660,7 @@ size_t pp_struct_size(const char *name);
 
 // The fields of a struct, for languages that make it of them: for each a line with its name, numpy's format
 // of a number of it ("f8", "i4", "u4"), how many numbers it has, and its first byte. Known are pp_contact,
-// pp_contact_2d, pp_closest, pp_closest_2d, pp_flat_contact and pp_settings; NULL for another name. Static
-// text: do not free it.
+// pp_closest, pp_flat_contact and pp_settings; NULL for another name. Static text: do not free it.
 //
 // Pointers: name is NULL or a text that ends with a zero byte.
 const char *pp_struct_fields(const char *name);
@@ -1110,6 +960,46 @@ pp_status pp_particle_new(const double *planes,
                           char *message,
                           size_t message_size);
 
+// Creates a particle in the plane z = 0 from count lines a x + b y = d: that of the planes (a, b, 0, d), of
+// which only the cut at z = 0 counts.
+//
+// It is used as any other, at poses with z = 0 and a turn about z alone, together with particles in the plane
+// or with planes whose normal is (x, y, 0): PP_NOT_IN_PLANE otherwise. Answers lie at z = 0. Areas are lengths,
+// volumes areas, and masses, forces of patches and energies are per unit of depth.
+// lines: count rows of a, b, d (outward normal and offset); may be NULL when count is 0. r, k, shadow_radius,
+// out, message, errors: as of pp_particle_new, the codes of planes for lines; for k = 0 the lines must enclose
+// an area.
+// Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
+pp_status pp_particle_new_in_plane(const double *lines,
+                                   size_t count,
+                                   double r,
+                                   double k,
+                                   double shadow_radius,
+                                   struct pp_particle **out,
+                                   char *message,
+                                   size_t message_size);
+
+// Creates a particle in the plane z = 0 from points whose convex hull is a polygon with rounded corners; it is
+// used as one of pp_particle_new_in_plane.
+//
+// The local origin is the centroid of the polygon, its sides are those of the polygon (k = 0), and the shadow
+// circle goes through its outermost corner.
+// points: count rows of x, y, in any order.
+// r: rounding radius, length, less than the distance of each side from the centroid. k: sphericity, in [0, 1].
+// out: receives the particle; release it with pp_particle_free.
+// message: receives, on failure, a sentence that names the point or value (may be NULL).
+// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose no area),
+// PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES, PP_BAD_INDEX (a count that no memory could
+// hold).
+// Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
+pp_status pp_particle_new_polygon(const double *points,
+                                  size_t count,
+                                  double r,
+                                  double k,
+                                  struct pp_particle **out,
+                                  char *message,
+                                  size_t message_size);
+
 // The same shape factor times as large: d, r and R multiplied by it.
 //
 // out: receives the new particle; release it with pp_particle_free.
@@ -1250,231 +1140,6 @@ pp_status pp_patch_derivatives_on_boundary(const struct pp_particle *a,
                                            const struct pp_flat_contact *contact,
                                            double tolerance,
                                            struct pp_patch_derivatives *out);
-
-// Finds the contact of particle A at pose_a with particle B at pose_b, both of the plane.
-//
-// settings, state: may be NULL, and are as of pp_contact_detect. out: the answer; see struct pp_contact_2d
-// for frames, units and signs.
-// Pointers: state and out are not used by another call at the same time.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
-// PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING, PP_SOLVER_FAILED.
-pp_status pp_contact_detect_2d(const struct pp_particle_2d *a,
-                               const struct pp_pose_2d *pose_a,
-                               const struct pp_particle_2d *b,
-                               const struct pp_pose_2d *pose_b,
-                               const struct pp_settings *settings,
-                               struct pp_pair_state *state,
-                               struct pp_contact_2d *out);
-
-// Finds the contacts of many pairs of bodies of the plane: pp_contact_detect_batch with two coordinates,
-// where every argument, status and error is explained.
-//
-// Each contact and state is, to the last bit, that of pp_contact_detect_2d for the pair alone, whatever
-// the number of threads.
-// Errors: PP_NULL_POINTER, PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
-// PP_BAD_INDEX (a count that no memory could hold).
-pp_status pp_contact_detect_batch_2d(const struct pp_particle_2d *const *particles,
-                                     const struct pp_pose_2d *poses,
-                                     size_t body_count,
-                                     const uint32_t *pairs,
-                                     size_t pair_count,
-                                     const struct pp_settings *settings,
-                                     uint32_t threads,
-                                     struct pp_pair_state *states,
-                                     struct pp_contact_2d *contacts,
-                                     pp_status *statuses);
-
-// The point on one of the particles of the plane where the scale of the other is least: P1 on A, P2 on B
-// (paper eqs 3, 9). As pp_closest_point.
-//
-// on: PP_ON_A or PP_ON_B. settings: may be NULL (defaults); the formulation and solve_separated do not
-// matter. out: the point, or slack = 1 where there is none.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION (an angle that is not finite or beyond 2^30),
-// PP_BAD_INDEX (on), PP_UNKNOWN_FORMULATION, PP_UNKNOWN_BACK_END, PP_NO_CONE_PROGRAM, PP_BAD_SETTING,
-// PP_SOLVER_FAILED.
-pp_status pp_closest_point_2d(const struct pp_particle_2d *a,
-                              const struct pp_pose_2d *pose_a,
-                              const struct pp_particle_2d *b,
-                              const struct pp_pose_2d *pose_b,
-                              uint32_t on,
-                              const struct pp_settings *settings,
-                              struct pp_closest_2d *out);
-
-// Contact length (YADE: jointLength): how much of the line through the contact point, normal to the
-// contact normal, lies in both particles.
-//
-// contact: an overlapping answer of pp_contact_detect_2d for the same particles and poses.
-// length: receives a length; 0 when separated. Exact to rounding.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT (the contact
-// was not filled: no kind, point or normal).
-pp_status pp_contact_length_2d(const struct pp_particle_2d *a,
-                               const struct pp_pose_2d *pose_a,
-                               const struct pp_particle_2d *b,
-                               const struct pp_pose_2d *pose_b,
-                               const struct pp_contact_2d *contact,
-                               double *length);
-
-// Creates a particle of the plane from count lines a x + b y = d.
-//
-// With S(x) = (1-k)/r^2 * sum <a x + b y - d>^2 + k/R^2 * |x|^2 all else is as in
-// pp_particle_new, and the codes of planes stand for lines.
-// lines: count rows of a, b, d (outward normal and offset; local frame; the normal is used as
-// given). They are the lines of the core: for k = 0 a side lies at a x + b y = d + r. May be NULL when
-// count is 0.
-// r: rounding radius, length. k: sphericity, in [0, 1]. shadow_radius: R, length.
-// out: receives the particle; release it with pp_particle_free_2d.
-// message: receives, on failure, a sentence that names the line or value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE, PP_PLANE_ZERO_NORMAL, PP_BAD_SPHERICITY,
-// PP_BAD_ROUNDING_RADIUS, PP_BAD_SHADOW_RADIUS, PP_CENTRE_OUTSIDE, PP_UNBOUNDED (k = 0 and
-// the lines enclose no area), PP_TOO_MANY_PLANES, PP_BAD_SIZE.
-// Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
-pp_status pp_particle_new_2d(const double *lines,
-                             size_t count,
-                             double r,
-                             double k,
-                             double shadow_radius,
-                             struct pp_particle_2d **out,
-                             char *message,
-                             size_t message_size);
-
-// Creates a particle of the plane from points whose convex hull is a polygon with rounded corners.
-//
-// The local origin is the centroid of the polygon, its sides are those of the polygon (k = 0), and
-// the shadow circle goes through its outermost corner.
-// points: count rows of x, y, in any order.
-// r: rounding radius, length, less than the distance of each side from the centroid. k: sphericity,
-// in [0, 1].
-// out: receives the particle; release it with pp_particle_free_2d.
-// message: receives, on failure, a sentence that names the point or value (may be NULL).
-// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose
-// no area), PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES, PP_BAD_INDEX (a count that no
-// memory could hold).
-// Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
-pp_status pp_particle_new_polygon_2d(const double *points,
-                                     size_t count,
-                                     double r,
-                                     double k,
-                                     struct pp_particle_2d **out,
-                                     char *message,
-                                     size_t message_size);
-
-// Releases a particle of the plane; NULL is allowed and does nothing. No call that uses it may still be
-// running.
-// Pointers: particle is NULL or came from pp_particle_new_2d or pp_particle_new_polygon_2d and was not
-// released yet.
-void pp_particle_free_2d(struct pp_particle_2d *particle);
-
-// Rounding radius r as given, length.
-//
-// Errors: PP_NULL_POINTER.
-pp_status pp_particle_rounding_radius_2d(const struct pp_particle_2d *particle, double *r);
-
-// Sphericity k as given, no unit.
-//
-// Errors: PP_NULL_POINTER.
-pp_status pp_particle_sphericity_2d(const struct pp_particle_2d *particle, double *k);
-
-// Radius R of the shadow circle as given, or that through the outermost corner of a polygon, length.
-//
-// Errors: PP_NULL_POINTER.
-pp_status pp_particle_shadow_radius_2d(const struct pp_particle_2d *particle,
-                                       double *shadow_radius);
-
-// Lines as given, or the sides of a polygon less r: rows of a, b, d, local frame.
-//
-// lines: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
-// lines, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
-// Pointers: lines is valid for writing 3*capacity doubles.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-pp_status pp_particle_lines_2d(const struct pp_particle_2d *particle,
-                               double *lines,
-                               size_t capacity,
-                               size_t *count);
-
-// The patch of an overlapping contact of two particles of the plane. As pp_patch_of_contact, state too.
-//
-// Errors: those of pp_patch_of_contact.
-pp_status pp_patch_of_contact_2d(const struct pp_particle_2d *a,
-                                 const struct pp_pose_2d *pose_a,
-                                 const struct pp_particle_2d *b,
-                                 const struct pp_pose_2d *pose_b,
-                                 const struct pp_contact_2d *contact,
-                                 double tolerance,
-                                 uint32_t with_energy,
-                                 struct pp_patch_state *state,
-                                 struct pp_patch_2d *patch,
-                                 struct pp_patch_point_2d *points,
-                                 size_t capacity,
-                                 size_t *count);
-
-// f = S - 1 at a world point (2 doubles), and its gradient (2 doubles, world axes, 1/length; may
-// be NULL).
-//
-// f < 0 inside, 0 on the boundary, > 0 outside.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION, PP_BAD_POINT.
-// Pointers: Pointers are NULL or valid: point for reading 2 doubles, f and gradient for writing 1 and 2.
-pp_status pp_particle_potential_2d(const struct pp_particle_2d *particle,
-                                   const struct pp_pose_2d *pose,
-                                   const double *point,
-                                   double *f,
-                                   double *gradient);
-
-// Radius about the centre of a circle that holds the particle, length: two particles whose centres are
-// further apart than both radii together need no call of pp_contact_detect_2d.
-//
-// Errors: PP_NULL_POINTER.
-pp_status pp_particle_bounding_radius_2d(const struct pp_particle_2d *particle,
-                                         double *radius);
-
-// Axis-aligned box in world axes that holds the particle at this pose: the box of its corners.
-//
-// Pointers: lower and upper receive 2 doubles each, world frame.
-// Errors: PP_NULL_POINTER, PP_BAD_POSITION, PP_BAD_ORIENTATION.
-pp_status pp_particle_box_2d(const struct pp_particle_2d *particle,
-                             const struct pp_pose_2d *pose,
-                             double *lower,
-                             double *upper);
-
-// Corners, local frame, of a polygon that holds the particle: rows of x, y.
-//
-// corners: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
-// corners, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
-// Pointers: corners is valid for writing 2*capacity doubles.
-// Errors: PP_NULL_POINTER, PP_BUFFER_TOO_SMALL.
-pp_status pp_particle_corners_2d(const struct pp_particle_2d *particle,
-                                 double *corners,
-                                 size_t capacity,
-                                 size_t *count);
-
-// Distance from the centre to the boundary along a direction (2 doubles, local frame, any length).
-//
-// Pointers: direction is valid for reading 2 doubles.
-// Errors: PP_NULL_POINTER, PP_BAD_POINT.
-pp_status pp_particle_surface_distance_2d(const struct pp_particle_2d *particle,
-                                          const double *direction,
-                                          double *distance);
-
-// Area, centroid and second moments for unit density, in closed form. The tolerance, as in
-// pp_particle_mass_properties, counts where rounding leaves more than that: there a fine polygon answers.
-//
-// Errors: PP_NULL_POINTER, PP_BAD_SETTING.
-pp_status pp_particle_area_properties_2d(const struct pp_particle_2d *particle,
-                                         double tolerance,
-                                         struct pp_area_properties *properties);
-
-// Points of the boundary, local frame, in order: rows of x, y. The chord between neighbouring points is
-// nowhere farther than tolerance (length, above 0) from the boundary, unless that takes more than about a
-// million points: refinement ends there.
-//
-// points: room for capacity rows; may be NULL when capacity is 0. count: receives the number of
-// points, also when the buffer is too small (PP_BUFFER_TOO_SMALL), so that one call asks the size.
-// Pointers: points is valid for writing 2*capacity doubles.
-// Errors: PP_NULL_POINTER, PP_BAD_SETTING, PP_BUFFER_TOO_SMALL.
-pp_status pp_particle_outline_2d(const struct pp_particle_2d *particle,
-                                 double tolerance,
-                                 double *points,
-                                 size_t capacity,
-                                 size_t *count);
 
 // f = S - 1 at a world point (3 doubles), and its gradient (3 doubles, world axes, 1/length; may
 // be NULL).

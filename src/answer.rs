@@ -131,7 +131,7 @@ words!(u32, "u4", |value| value; Flags, "u4", |flags| flags.bits());
 macro_rules! answer {
     (
         $(#[$meta:meta])*
-        pub struct $name:ident $(<const $n:ident: usize = $default:literal>)? {
+        pub struct $name:ident {
             $($(#[doc = $doc:literal])* $vis:vis $field:ident: $type:ty = $unknown:expr,)+
         }
     ) => {
@@ -140,7 +140,7 @@ macro_rules! answer {
         #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
         #[non_exhaustive]
         #[repr(C)]
-        pub struct $name $(<const $n: usize = $default>)? {
+        pub struct $name {
             $(
                 $(#[doc = $doc])*
                 #[cfg_attr(feature = "serde", serde(with = "crate::serialisation::field"))]
@@ -148,7 +148,7 @@ macro_rules! answer {
             )+
         }
 
-        impl $(<const $n: usize>)? $name $(<$n>)? {
+        impl $name {
             /// An answer of which nothing is known yet.
             pub const UNKNOWN: Self = Self { $($field: $unknown,)+ };
 
@@ -174,10 +174,10 @@ macro_rules! answer {
             }
         }
 
-        $crate::answer::in_plane! { $name [$($n)?] $($field)+ }
+        const _: () = assert!($crate::answer::is_full($name::LAYOUT, size_of::<$name>()));
 
         /// What does not apply, NaN, counts as equal.
-        impl $(<const $n: usize>)? PartialEq for $name $(<$n>)? {
+        impl PartialEq for $name {
             fn eq(&self, other: &Self) -> bool {
                 true $(&& $crate::answer::Field::same(&self.$field, &other.$field))+
             }
@@ -185,42 +185,3 @@ macro_rules! answer {
     };
 }
 pub(crate) use answer;
-
-/// The answer of the plane from that of space: vectors lose their z.
-macro_rules! in_plane {
-    ($name:ident [] $($field:ident)+) => {
-        const _: () = assert!($crate::answer::is_full($name::LAYOUT, size_of::<$name>()));
-    };
-    ($name:ident [$n:ident] $($field:ident)+) => {
-        const _: () = assert!($crate::answer::is_full($name::<3>::LAYOUT, size_of::<$name<3>>()));
-        const _: () = assert!($crate::answer::is_full($name::<2>::LAYOUT, size_of::<$name<2>>()));
-
-        impl $name<3> {
-            /// The same without z.
-            #[inline]
-            pub(crate) fn in_plane(&self) -> $name<2> {
-                $name { $($field: $crate::answer::InPlane::in_plane(self.$field),)+ }
-            }
-        }
-    };
-}
-pub(crate) use in_plane;
-
-/// A field without its z.
-pub(crate) trait InPlane<To> {
-    fn in_plane(self) -> To;
-}
-
-impl InPlane<SVector<f64, 2>> for SVector<f64, 3> {
-    #[inline(always)]
-    fn in_plane(self) -> SVector<f64, 2> {
-        self.xy()
-    }
-}
-
-impl<T: Field> InPlane<T> for T {
-    #[inline(always)]
-    fn in_plane(self) -> T {
-        self
-    }
-}

@@ -21,9 +21,8 @@
 //! | `bounds` | what rounding does to an optimum: the gap of s and the distance of the point |
 //! | `solver` | initial guess, line search, Newton's method, and the order in which solvers are tried |
 //! | `contact` | point, normal and overlap from a solution; [`detect`](detect()); many pairs at once |
-//! | `section` | the contact area |
+//! | `section` | the contact area; mass properties, in the plane by the same arcs |
 //! | `boundary` | the contact with a flat boundary: a plane, or a triangle of a mesh |
-//! | [`planar`] | particles of the plane and their contacts |
 //! | `patch` | the contact patch: pressure, force, torque, area, energy |
 //! | `derivative` | derivatives of a contact in poses and shapes |
 //! | `surface` | a closed mesh of triangles on the surface |
@@ -40,7 +39,8 @@
 //! of two bodies, [`detect_batch`] those of many pairs on several threads; [`Settings`] choose the formulation and the
 //! accuracy, and a [`PairState`] for each pair lets the next call start from the last solution. [`Section::area`] gives
 //! the contact area, [`closest_point`] one closest point alone, [`contact_with_plane`] and [`contact_with_triangle`]
-//! the contact with a wall, [`Particle::mass_properties`] volume and inertia.
+//! the contact with a wall, [`Particle::mass_properties`] volume and inertia. [`Particle::in_plane`] makes a particle
+//! in the plane, which all of them take like any other.
 //!
 //! ```
 //! use potential_particles::{Kind, PairState, Particle, Plane, Pose, Section, Settings, detect};
@@ -80,7 +80,6 @@ pub mod packing;
 mod pair;
 mod particle;
 mod patch;
-pub mod planar;
 mod pose;
 mod random;
 #[cfg(feature = "cone-program")]
@@ -119,6 +118,7 @@ pub use flags::Flags;
 pub use pair::pair_state::PairState;
 pub use pair::role::Role;
 pub use particle::error::ToleranceError;
+pub use particle::in_plane::InPlaneError;
 pub use particle::mass_properties::{MASS_TOLERANCE, MassProperties};
 pub use particle::particle::{MAX_PLANES, Particle, ParticleError, Plane};
 pub use patch::{

@@ -1,5 +1,6 @@
 //! Rigid poses, and the one change of frame that a contact call makes.
 
+use crate::linalg::sine_and_cosine::LARGEST;
 use nalgebra::{Isometry3, Matrix3, Rotation3, UnitQuaternion, Vector3};
 use thiserror::Error;
 
@@ -15,6 +16,10 @@ pub enum PoseError {
         "the rotation matrix is off from a rotation by {0:e} in an entry of its square: columns must be orthonormal"
     )]
     Rotation(f64),
+    #[error(
+        "angle {0:?} is not finite or beyond 2^30 = 1073741824: give it in radians, anticlockwise, less whole turns"
+    )]
+    Angle(f64),
 }
 
 /// Largest error of an entry of RᵀR − 1 at which R still counts as a rotation that was rounded or stored in few digits.
@@ -85,11 +90,31 @@ impl Pose {
         Ok(Self { position: Vector3::from(position), turn: orientation, rotation })
     }
 
-    /// From a position and an angle about z, all of them finite.
-    pub(crate) fn about_z(position: [f64; 3], angle: f64) -> Self {
+    /// Of a particle in the plane z = 0: from its position there and the paper's angle θ (eqs 7, 8), radians,
+    /// anticlockwise, local to world, from −2³⁰ to 2³⁰. It counts as exact.
+    ///
+    /// ```
+    /// use nalgebra::Vector3;
+    /// use potential_particles::Pose;
+    /// let pose = Pose::in_plane([1.0, 2.0], std::f64::consts::FRAC_PI_2)?;
+    /// let world = pose.rotate(&Vector3::x()) + pose.position();
+    /// assert!((world - Vector3::new(1.0, 3.0, 0.0)).norm() < 1e-15);
+    /// # Ok::<(), potential_particles::PoseError>(())
+    /// ```
+    ///
+    /// # Errors
+    /// A position or angle that is not finite, or an angle beyond that range.
+    pub fn in_plane(position: [f64; 2], angle: f64) -> Result<Self, PoseError> {
+        let [x, y] = position;
+        if !(x.is_finite() && y.is_finite()) {
+            return Err(PoseError::Position(x, y, 0.0));
+        }
+        if !(-LARGEST..=LARGEST).contains(&angle) {
+            return Err(PoseError::Angle(angle));
+        }
         let (sin, cos) = angle.sin_cos();
         let rotation = Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
-        Self { position: Vector3::from(position), turn: [f64::INFINITY, angle, 0.0, 0.0], rotation }
+        Ok(Self { position: Vector3::new(x, y, 0.0), turn: [f64::INFINITY, angle, 0.0, 0.0], rotation })
     }
 
     /// No rotation, at a position.

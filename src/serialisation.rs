@@ -5,6 +5,7 @@
 //! file makes a particle, a pose or settings that the program could not. Numbers that do not apply (NaN) are written as
 //! nothing, since JSON has no NaN; an infinite number is lost in JSON in the same way.
 
+use crate::pose::Turn;
 use crate::settings::Written;
 use crate::{PairState, Particle, Plane, Pose, Settings};
 use serde::de::Error;
@@ -46,6 +47,9 @@ struct ParticleTwin {
     r: f64,
     k: f64,
     shadow_radius: f64,
+    /// Whether the planes are (a, b, 0, d) of lines in the plane.
+    #[serde(default)]
+    in_plane: bool,
 }
 
 through!(
@@ -56,8 +60,17 @@ through!(
         r: particle.rounding_radius(),
         k: particle.sphericity(),
         shadow_radius: particle.shadow_radius(),
+        in_plane: particle.is_in_plane(),
     },
-    |twin| Particle::new(&twin.planes, twin.r, twin.k, twin.shadow_radius).map_err(|error| error.to_string())
+    |ParticleTwin { planes, r, k, shadow_radius, in_plane }| {
+        let lines = || planes.iter().map(|plane| [plane.normal.x, plane.normal.y, plane.offset]).collect::<Vec<_>>();
+        let made = if in_plane {
+            Particle::in_plane(&lines(), r, k, shadow_radius)
+        } else {
+            Particle::new(&planes, r, k, shadow_radius)
+        };
+        made.map_err(|error| error.to_string())
+    }
 );
 
 #[derive(Serialize, Deserialize)]
@@ -66,13 +79,26 @@ struct PoseTwin {
     position: [f64; 3],
     /// (w, x, y, z), as it was given.
     orientation: [f64; 4],
+    /// Of a pose in the plane, which counts by its angle, as it was given.
+    #[serde(default)]
+    angle: Option<f64>,
 }
 
 through!(
     Pose,
     PoseTwin,
-    |pose| PoseTwin { position: (*pose.position()).into(), orientation: pose.orientation() },
-    |twin| Pose::new(twin.position, twin.orientation).map_err(|error| error.to_string())
+    |pose| PoseTwin {
+        position: (*pose.position()).into(),
+        orientation: pose.orientation(),
+        angle: if let Turn::Angle(angle) = pose.turn() { Some(angle) } else { None },
+    },
+    |PoseTwin { position, orientation, angle }| {
+        let made = match (angle, position) {
+            (Some(angle), [x, y, 0.0]) => Pose::in_plane([x, y], angle),
+            _ => Pose::new(position, orientation),
+        };
+        made.map_err(|error| error.to_string())
+    }
 );
 
 through!(Settings, Written, |settings| (*settings).into(), |written| {

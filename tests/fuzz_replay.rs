@@ -83,11 +83,6 @@ fn walls_of_any_bytes() {
 }
 
 #[test]
-fn particles_of_the_plane_of_any_bytes() {
-    replay("planar", targets::planar::run, 60_000);
-}
-
-#[test]
 fn memories_of_any_bytes() {
     replay("memories", targets::memories::run, 40_000);
 }

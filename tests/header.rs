@@ -43,28 +43,25 @@ fn comment_in_c(line: &str) -> String {
     })
 }
 
-/// The structs of the library that C has as they are: file, struct, dimension, name in C.
-const STRUCTS: [(&str, &str, &str, &str); 10] = [
-    ("src/settings.rs", "Settings", "3", "pp_settings"),
-    ("src/contact/contact.rs", "Contact", "3", "pp_contact"),
-    ("src/contact/closest_point.rs", "ClosestPoint", "3", "pp_closest"),
-    ("src/boundary/contact.rs", "FlatContact", "3", "pp_flat_contact"),
-    ("src/patch/patch.rs", "PatchPoint", "3", "pp_patch_point"),
-    ("src/derivative/answer.rs", "ContactWeights", "3", "pp_contact_weights"),
-    ("src/derivative/answer.rs", "PoseGradient", "3", "pp_pose_gradient"),
-    ("src/contact/contact.rs", "Contact", "2", "pp_contact_2d"),
-    ("src/contact/closest_point.rs", "ClosestPoint", "2", "pp_closest_2d"),
-    ("src/patch/planar.rs", "PatchPoint", "2", "pp_patch_point_2d"),
+/// The structs of the library that C has as they are: file, struct, name in C.
+const STRUCTS: [(&str, &str, &str); 7] = [
+    ("src/settings.rs", "Settings", "pp_settings"),
+    ("src/contact/contact.rs", "Contact", "pp_contact"),
+    ("src/contact/closest_point.rs", "ClosestPoint", "pp_closest"),
+    ("src/boundary/contact.rs", "FlatContact", "pp_flat_contact"),
+    ("src/patch/patch.rs", "PatchPoint", "pp_patch_point"),
+    ("src/derivative/answer.rs", "ContactWeights", "pp_contact_weights"),
+    ("src/derivative/answer.rs", "PoseGradient", "pp_pose_gradient"),
 ];
 
 /// A struct of the library, alone or of an `answer!`, as a plain struct under its name in C.
-fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> String {
+fn struct_in_c((file, name, in_c): (&str, &str, &str)) -> String {
     let source = source(file);
     let is_doc = |line: &&str| line.starts_with("///");
     let lines: Vec<&str> = source.lines().map(str::trim_start).filter(|line| !line.starts_with("#[")).collect();
     let is_head = |line: &&str| {
         let rest = line.strip_prefix("pub struct ").and_then(|line| line.strip_prefix(name));
-        rest.is_some_and(|rest| rest.starts_with([' ', '<']))
+        rest.is_some_and(|rest| rest.starts_with(' '))
     };
     let head = lines.iter().rposition(is_head).unwrap_or_else(|| panic!("{file} has no struct {name}"));
     let docs = lines[..head].iter().rev().take_while(|line| is_doc(line)).count();
@@ -73,8 +70,7 @@ fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> Strin
         if is_head(line) {
             plain += &format!("pub struct {in_c} {{");
         } else if is_doc(line) {
-            let line = comment_in_c(line);
-            plain += &if dimension == "2" { line.replace("the surface", "the boundary") } else { line };
+            plain += &comment_in_c(line);
         } else {
             // Without the value that an answer has while nothing is known.
             plain += &line.split_once(" = ").map_or_else(|| (*line).into(), |(field, _)| format!("{field},"));
@@ -86,8 +82,7 @@ fn struct_in_c((file, name, dimension, in_c): (&str, &str, &str, &str)) -> Strin
     }
     let words = [("Kind", "i32"), ("Formulation", "u32"), ("BackEnd", "u32"), ("Flags", "u32"), ("Feature", "u32")];
     let plain = words.iter().fold(plain, |text, (of, by)| text.replace(&format!(": {of},"), &format!(": {by},")));
-    let vector = format!("[f64; {dimension}]");
-    ["SVector<f64, N>", "Vector2<f64>", "Vector3<f64>"].iter().fold(plain, |text, of| text.replace(of, &vector))
+    plain.replace("Vector3<f64>", "[f64; 3]")
 }
 
 /// The flags of the library: file, type, and how their names begin in C.

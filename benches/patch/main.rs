@@ -6,7 +6,7 @@ mod accuracy;
 mod cases;
 mod families;
 mod gradients;
-mod planar;
+mod in_plane;
 mod speed;
 
 use kit::target::{at_most, write_summary};
@@ -60,7 +60,7 @@ fn main() {
     let many = units(&kinds, 1e-4, |kind| kind.starts_with("300"));
     targets.push(at_most("300 + 300 planes at 1e-4: evaluations of both bodies", 1500.0, many));
     targets.push(at_most("carried on by its stiffness: evaluations of both bodies", 40.0, speed::carried(unit)));
-    let in_plane = planar::measure(unit);
+    let in_plane = in_plane::measure(unit);
     let drawn = std::time::UNIX_EPOCH.elapsed().map_or(1, |since| u64::from(since.subsec_nanos()));
     let seed = std::env::args().find_map(|argument| argument.strip_prefix("seed=")?.parse().ok()).unwrap_or(drawn);
     let (families, rays) = families::measure(if quick { 100 } else { 1000 }, seed);

@@ -74,7 +74,7 @@ box(40, 520, 150, 92, "linalg", "numbers of 16 and", "32 digits, lanes,", "3×3 
 box(206, 520, 170, 92, "boundary", "planes and triangles", "as boundaries")
 box(392, 520, 170, 92, "reference", "the paper's cone", "programs, to compare")
 box(578, 520, 170, 92, "section, surface", "contact area,", "meshes")
-box(764, 520, 156, 92, "packing, planar", "bodies in containers;", "all of it in 2-D")
+box(764, 520, 156, 92, "packing", "bodies in containers")
 
 arrow((360, 62), (360, 114))
 arrow((283, 158), (283, 178))

@@ -7,8 +7,8 @@ With <t> = max(t, 0) a particle is {x: S(x) <= 1} in its local frame,
 
 A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a
 Batch those of all pairs of a step on numpy arrays. `shapes` makes particles of points, surfaces, scans and names of
-solids, `packing` fills containers with them, `rock` cuts rock into blocks, `equilibrium` says whether bodies stand, and
-`planar` has particles of the plane. Lengths are in the caller's unit, quaternions (w,
+solids, `packing` fills containers with them, `rock` cuts rock into blocks, `equilibrium` says whether bodies stand.
+Particle.in_plane and Pose.in_plane make bodies of two dimensions. Lengths are in the caller's unit, quaternions (w,
 x, y, z), vectors in world axes unless said otherwise.
 
 In YADE, with the plugin, the names of `potential_particles.yade` stand here, too.
@@ -21,7 +21,7 @@ __version__ = "0.2.0"
 # Parts for YADE may be installed elsewhere than a wheel.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
-from . import equilibrium, packing, planar, rock, shapes  # noqa: E402
+from . import equilibrium, packing, rock, shapes  # noqa: E402
 from ._core import (  # noqa: E402
     FAILED,
     OVERLAPPING,
@@ -99,7 +99,6 @@ __all__ = [
     "patch_of_contact",
     "patch_on_plane",
     "patch_on_triangle",
-    "planar",
     "pose_type",
     "rock",
     "shapes",

@@ -129,7 +129,7 @@ pub fn attribute<T: PyClass<Frozen = True> + Sync>(
     py.get_type::<T>().setattr(name, py.import("builtins")?.call_method1("property", (get, &none, &none, doc))?)
 }
 
-/// Getters that the contacts of two particles, with a boundary and in the plane have in common.
+/// Getters that the contacts of two particles, and with a boundary have in common.
 macro_rules! getters_of_contact {
     ($class:ident) => {
         #[pymethods]

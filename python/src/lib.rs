@@ -20,7 +20,6 @@
 //! | `packing` | packings |
 //! | `slicing` | rock masses |
 //! | `equilibrium` | whether a scene of blocks stands |
-//! | `planar` | particles of the plane |
 
 mod arrays;
 mod batch;
@@ -33,7 +32,6 @@ mod packing;
 mod particle;
 mod patch;
 mod pickles;
-mod planar;
 mod polyhedron;
 mod pose;
 mod records;
@@ -59,6 +57,5 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     polyhedron::add(module)?;
     packing::add(module)?;
     slicing::add(module)?;
-    equilibrium::add(module)?;
-    planar::add(module)
+    equilibrium::add(module)
 }

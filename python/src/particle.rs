@@ -2,10 +2,11 @@
 
 use crate::arrays::{rows, to_rows, to_vector, vector};
 use crate::errors::refused;
-use crate::pickles::pickled;
+use crate::pickles::{pickled, reduced, state};
 use crate::pose::PyPose;
 use numpy::{PyArray1, PyArray2};
 use potential_particles::{MassProperties, Particle, Plane, SurfaceMesh};
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 /// A validated potential particle, immutable: {x: (1-k)/r^2 sum <n.x - d>^2 + k/R^2 |x|^2 <= 1}, local frame.
@@ -57,6 +58,24 @@ impl PyParticle {
         Particle::sphere(radius).map(Self).map_err(refused)
     }
 
+    /// A particle in the plane z = 0: rows (a, b, d) of lines a x + b y = d with outward normals. It is used as any
+    /// other, at poses that stay in the plane (Pose.in_plane), together with others in the plane; what it answers lies
+    /// at z = 0, and areas, masses and forces of patches are per unit of depth.
+    #[staticmethod]
+    #[pyo3(signature = (lines, r, k=0.0, R=1.0))]
+    #[allow(non_snake_case)]
+    fn in_plane(lines: &Bound<'_, PyAny>, r: f64, k: f64, R: f64) -> PyResult<Self> {
+        let lines = rows::<3>(lines, "lines", "three numbers a, b, d")?;
+        Particle::in_plane(&lines, r, k, R).map(Self).map_err(refused)
+    }
+
+    /// A convex polygon with rounded corners in the plane z = 0, about its centroid: the convex hull of points (x, y).
+    #[staticmethod]
+    #[pyo3(signature = (points, r, k=0.0))]
+    fn polygon(points: &Bound<'_, PyAny>, r: f64, k: f64) -> PyResult<Self> {
+        Particle::polygon(&rows::<2>(points, "points", "two numbers x, y")?, r, k).map(Self).map_err(refused)
+    }
+
     fn scaled(&self, factor: f64) -> PyResult<Self> {
         self.0.scaled(factor).map(Self).map_err(refused)
     }
@@ -64,6 +83,12 @@ impl PyParticle {
     #[getter]
     fn planes<'py>(&self, py: Python<'py>) -> Bound<'py, PyArray2<f64>> {
         to_rows(py, self.0.planes().map(|plane| [plane.normal.x, plane.normal.y, plane.normal.z, plane.offset]))
+    }
+
+    /// Whether it lies in the plane z = 0.
+    #[getter]
+    fn is_in_plane(&self) -> bool {
+        self.0.is_in_plane()
     }
 
     #[getter]
@@ -147,12 +172,15 @@ impl PyParticle {
     }
 
     fn __repr__(&self) -> String {
-        format!("<Particle of {} planes, r={:?}, k={:?}, R={:?}>", self.0.plane_count(), self.r(), self.k(), self.R())
+        let planes = if self.0.is_in_plane() { "lines in the plane" } else { "planes" };
+        let count = self.0.plane_count();
+        format!("<Particle of {count} {planes}, r={:?}, k={:?}, R={:?}>", self.r(), self.k(), self.R())
     }
 
     fn __eq__(&self, other: &Self) -> bool {
         let numbers = |one: &Self| [one.r(), one.k(), one.R()];
-        numbers(self) == numbers(other) && self.0.planes().eq(other.0.planes())
+        let is_alike = numbers(self) == numbers(other) && self.0.is_in_plane() == other.0.is_in_plane();
+        is_alike && self.0.planes().eq(other.0.planes())
     }
 
     fn __hash__(&self) -> u64 {
@@ -162,9 +190,17 @@ impl PyParticle {
         planes.chain([self.r(), self.k(), self.R()]).map(|number| number + 0.0).fold(0, bits)
     }
 
-    #[allow(clippy::type_complexity)]
-    fn __getnewargs__<'py>(&self, py: Python<'py>) -> (Bound<'py, PyArray2<f64>>, f64, f64, f64) {
-        (self.planes(py), self.r(), self.k(), self.R())
+    fn __reduce__<'py>(object: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let (py, own) = (object.py(), object.get());
+        if own.0.is_in_plane() {
+            return reduced(object.as_any(), &own.0)?.into_bound_py_any(py);
+        }
+        (object.get_type(), (own.planes(py), own.r(), own.k(), own.R())).into_bound_py_any(py)
+    }
+
+    #[staticmethod]
+    fn _of_state(bytes: &[u8]) -> PyResult<Self> {
+        state(bytes).map(Self)
     }
 }
 

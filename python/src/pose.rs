@@ -2,8 +2,10 @@
 
 use crate::arrays::{to_rows, to_vector, vector};
 use crate::errors::refused;
+use crate::pickles::{reduced, state};
 use numpy::{PyArray1, PyArray2};
 use potential_particles::Pose;
+use pyo3::IntoPyObjectExt;
 use pyo3::prelude::*;
 
 /// Where a body is: world = rotation local + position, with a quaternion (w, x, y, z) of any length. ValueError:
@@ -21,6 +23,13 @@ impl PyPose {
         let orientation =
             orientation.map_or(Ok([1.0, 0.0, 0.0, 0.0]), |turn| vector(turn, "orientation (w, x, y, z)"))?;
         Pose::new(position, orientation).map(Self).map_err(refused)
+    }
+
+    /// Of a particle in the plane z = 0: a position (x, y) there, and an angle in radians, anticlockwise.
+    #[staticmethod]
+    #[pyo3(signature = (position, angle=0.0))]
+    fn in_plane(position: &Bound<'_, PyAny>, angle: f64) -> PyResult<Self> {
+        Pose::in_plane(vector(position, "position")?, angle).map(Self).map_err(refused)
     }
 
     #[getter]
@@ -54,8 +63,20 @@ impl PyPose {
         format!("Pose(({x:?}, {y:?}, {z:?}), ({w:?}, {i:?}, {j:?}, {k:?}))")
     }
 
-    fn __getnewargs__(&self) -> ([f64; 3], [f64; 4]) {
-        ((*self.0.position()).into(), self.0.orientation())
+    fn __reduce__<'py>(object: &Bound<'py, Self>) -> PyResult<Bound<'py, PyAny>> {
+        let pose = &object.get().0;
+        let (position, orientation): ([f64; 3], _) = ((*pose.position()).into(), pose.orientation());
+        let is_given = Pose::new(position, orientation).is_ok_and(|made| made == *pose);
+        if is_given {
+            return (object.get_type(), (position, orientation)).into_bound_py_any(object.py());
+        }
+        // In the plane the angle is what was given.
+        reduced(object.as_any(), pose)?.into_bound_py_any(object.py())
+    }
+
+    #[staticmethod]
+    fn _of_state(bytes: &[u8]) -> PyResult<Self> {
+        state(bytes).map(Self)
     }
 }
 

@@ -67,7 +67,7 @@ pub fn pose_type(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
 }
 
 pub fn contact_type(py: Python<'_>) -> PyResult<&Bound<'_, PyAny>> {
-    let made = CONTACT_TYPE.get_or_try_init(py, || record_type(py, Contact::<3>::LAYOUT, size_of::<Contact>()))?;
+    let made = CONTACT_TYPE.get_or_try_init(py, || record_type(py, Contact::LAYOUT, size_of::<Contact>()))?;
     Ok(made.bind(py))
 }
 

@@ -8,7 +8,7 @@ import unittest
 
 import numpy as np
 import potential_particles as pp
-from potential_particles import equilibrium, planar, rock, shapes
+from potential_particles import rock
 
 BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
 
@@ -300,9 +300,9 @@ class Kept(unittest.TestCase):
         contact, apart = pp.detect(body, poses[0], body, poses[1]), pp.detect(body, poses[0], body, pp.Pose((0, 0, 9)))
         flat = pp.contact_with_plane(body, poses[0], floor)
         patch = pp.patch_of_contact(body, poses[0], body, poses[1], contact)
-        square = planar.Particle.rectangle(2, 1, r=0.05)
-        places = planar.Pose((0, 0)), planar.Pose((1.9, 0.2))
-        in_plane = planar.detect(square, places[0], square, places[1])
+        square = pp.Particle.polygon([(-1, -0.5), (1, -0.5), (1, 0.5), (-1, 0.5)], r=0.05)
+        places = pp.Pose.in_plane((0, 0)), pp.Pose.in_plane((1.9, 0.2))
+        in_plane = pp.detect(square, places[0], square, places[1])
         mass = rock.slice(rock.Domain(BOX), [rock.JointSet(30, 90, 1.5, fisher=40), rock.joint((0, 1, 2), 50, 60, radius=2.0)])
         scene = rock.limit_scene(mass, [0, 1], friction=42.0)
         for one in [
@@ -310,8 +310,8 @@ class Kept(unittest.TestCase):
                 pp.closest_point(body, poses[0], body, poses[1], "a"),
                 body.mass_properties(),
                 body.mesh(0.01), in_plane,
-                planar.patch_of_contact(square, places[0], square, places[1], in_plane),
-                square.area_properties(), scene, scene.stands(),
+                pp.patch_of_contact(square, places[0], square, places[1], in_plane),
+                square.mass_properties(), scene, scene.stands(),
                 pp.contact_derivatives(body, poses[0], body, poses[1], contact),
                 pp.contact_gradient(body, poses[0], body, poses[1], contact, overlap=1.0),
                 pp.boundary_gradient(body, poses[0], flat, overlap=1.0)

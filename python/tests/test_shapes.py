@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 import potential_particles as pp
-from potential_particles import equilibrium, packing, planar, rock, rounding, shapes
+from potential_particles import equilibrium, packing, rock, rounding, shapes
 
 BOX = [(1, 0, 0, 5), (-1, 0, 0, 5), (0, 1, 0, 5), (0, -1, 0, 5), (0, 0, 1, 5), (0, 0, -1, 5)]
 
@@ -136,7 +136,7 @@ class Builders(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "0 points"):
                 shapes.from_surface(none, none)
             with self.assertRaisesRegex(ValueError, "do not enclose|enclose no area"):
-                planar.Particle(none, r=0.1)
+                pp.Particle.in_plane(none, r=0.1)
 
     def test_files(self):
         ball = shapes.sphere(1.0).particle.mesh(0.1)
@@ -328,27 +328,33 @@ def product(first, second):
     return (a * b - np.dot(u, v), *(a * np.array(v) + b * np.array(u) + np.cross(u, v)))
 
 
-class Plane(unittest.TestCase):
+class InPlane(unittest.TestCase):
     def test_discs_and_squares(self):
-        disc = planar.Particle.circle(1.0)
-        poses = planar.Pose((0, 0)), planar.Pose((1.2, 0), 0.3)
-        contact = planar.detect(disc, poses[0], disc, poses[1])
+        disc = pp.Particle.in_plane([], r=0, k=1, R=1)
+        poses = pp.Pose.in_plane((0, 0)), pp.Pose.in_plane((1.2, 0), 0.3)
+        contact = pp.detect(disc, poses[0], disc, poses[1])
         self.assertAlmostEqual(contact.overlap, 0.8, delta=1e-12)
-        self.assertAlmostEqual(planar.contact_length(disc, poses[0], disc, poses[1], contact), 1.6, delta=1e-12)
-        # Of two squares face on face that overlap by d: 0.8 wide, stiffness against a turn 0.8^3/12 about the middle.
-        square = planar.Particle.rectangle(1, 1, 1e-4)
-        places = planar.Pose((0, 0)), planar.Pose((0.2, 1 - 1e-6))
-        contact = planar.detect(square, places[0], square, places[1])
-        patch = planar.patch_of_contact(square, places[0], square, places[1], contact, energy=True)
+        self.assertAlmostEqual(pp.contact_area(disc, poses[0], disc, poses[1], contact), 1.6, delta=1e-12)
+        # Of two squares face on face that overlap by d: 0.8 wide.
+        square = pp.Particle.polygon([(-0.5, -0.5), (0.5, -0.5), (0.5, 0.5), (-0.5, 0.5)], 1e-4)
+        places = pp.Pose.in_plane((0, 0)), pp.Pose.in_plane((0.2, 1 - 1e-6))
+        contact = pp.detect(square, places[0], square, places[1])
+        patch = pp.patch_of_contact(square, places[0], square, places[1], contact, energy=True, stiffness=True)
         self.assertAlmostEqual(patch.force[1] / 0.8e-6, 1.0, delta=1e-3)
         self.assertAlmostEqual(patch.energy / 0.4e-12, 1.0, delta=1e-3)
         self.assertAlmostEqual(patch.stiffness[1, 1] / 0.8, 1.0, delta=2e-2)
-        self.assertAlmostEqual(patch.points[:, 2].sum(), patch.length, delta=1e-12)
-        square = planar.Particle.rectangle(2, 1, 1e-4)
-        self.assertAlmostEqual(square.area_properties().area, 2, delta=1e-6)
-        again = pickle.loads(pickle.dumps(square))
-        np.testing.assert_array_equal(again.lines, square.lines)
-        self.assertEqual(pickle.loads(pickle.dumps(poses[1])).angle, 0.3)
+        self.assertAlmostEqual(patch.points[:, 3].sum(), patch.area, delta=1e-12)
+        self.assertAlmostEqual(square.mass_properties().volume, 1, delta=1e-6)
+        self.assertTrue(square.is_in_plane and square.mesh().vertices[:, 2].max() == 0)
+        flat = pp.contact_with_plane(square, places[0], pp.Wall((0, -0.4, 0), (0, 1, 0)))
+        self.assertAlmostEqual(flat.overlap, 0.1, delta=1e-9)
+        with self.assertRaisesRegex(ValueError, "make both by in_plane"):
+            pp.detect(square, places[0], pp.Particle.sphere(1), places[1])
+        with self.assertRaisesRegex(ValueError, "it turns about z alone"):
+            pp.detect(square, places[0], square, pp.Pose((0, 1, 0), (1, 0.1, 0, 0)))
+        for one in (square, disc, *poses):
+            self.assertEqual(pickle.loads(pickle.dumps(one)), one)
+        self.assertNotEqual(square, pp.Particle.in_plane([], r=0, k=1, R=1))
 
 
 class Package(unittest.TestCase):
@@ -356,7 +362,7 @@ class Package(unittest.TestCase):
         folder = Path(pp.__file__).parent
         self.assertTrue((folder / "py.typed").is_file())
         shared = {}
-        for name, module in (("_core", pp._core), ("planar", planar), ("equilibrium", equilibrium)):
+        for name, module in (("_core", pp._core), ("equilibrium", equilibrium)):
             tree = ast.parse((folder / f"{name}.pyi").read_text())
             told = {}
             for node in tree.body:
@@ -377,7 +383,7 @@ class Package(unittest.TestCase):
                                       for member in members if not member.startswith("_")}, found, f"{name}.{one}")
 
     def test_what_is_public_says_what_it_does(self):
-        for module in (pp, shapes, packing, rock, planar, equilibrium):
+        for module in (pp, shapes, packing, rock, equilibrium):
             for name in module.__all__:
                 thing = getattr(module, name)
                 if callable(thing):

@@ -78,7 +78,7 @@ answer! {
 /// ([`Flags::NORMAL_BY_BOUNDARY`]).
 ///
 /// `state` is what A and this boundary keep from call to call, as for a pair of particles: read, and updated on
-/// success.
+/// success. For a particle in the plane the normal is (x, y, 0), and the boundary a line.
 ///
 /// ```
 /// use potential_particles::{Kind, Particle, Pose, Settings, Wall, contact_with_plane};
@@ -91,7 +91,8 @@ answer! {
 /// ```
 ///
 /// # Errors
-/// A setting out of range, or no answer: the solver failed, or its bounds of s enclose 1 with a gap above 1e-2.
+/// A setting out of range; no answer: the solver failed, or its bounds of s enclose 1 with a gap above 1e-2; a pose or
+/// a normal that leaves the plane of a particle in it.
 pub fn contact_with_plane(
     a: &Particle,
     pose: &Pose,
@@ -100,19 +101,21 @@ pub fn contact_with_plane(
     state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
+    a.refuse_slanted(pose, &wall.normal)?;
     let call = Call { particle: a, pose, normal: wall.normal, settings };
     if let Some(apart) = call.apart(&[wall.point]) {
         return Ok(apart);
     }
     let plane = PlacedPart::new(wall.part(), pose);
-    call.contact(state, |search| search.on_plane(&plane))
+    let contact = call.contact(state, |search| search.on_plane(&plane))?;
+    Ok(if a.is_in_plane() { contact.in_plane() } else { contact })
 }
 
 /// Contact of A at a pose with a closed triangle, which it may touch from either side; otherwise as
 /// [`contact_with_plane`].
 ///
 /// # Errors
-/// A setting out of range, or no answer from the solver.
+/// A setting out of range, no answer from the solver, or a particle in the plane.
 pub fn contact_with_triangle(
     a: &Particle,
     pose: &Pose,
@@ -121,6 +124,7 @@ pub fn contact_with_triangle(
     state: Option<&mut PairState>,
 ) -> Result<FlatContact, DetectError> {
     settings.validate()?;
+    a.refuse_triangle()?;
     let call = Call { particle: a, pose, normal: triangle.normal, settings };
     if let Some(apart) = call.apart(&triangle.vertices) {
         return Ok(apart);
@@ -267,6 +271,14 @@ impl From<&FlatContact> for Section {
 }
 
 impl FlatContact {
+    /// Of a particle in the plane, whose least S on the boundary is at z = 0: what is beside it is rounding.
+    fn in_plane(mut self) -> Self {
+        let vectors =
+            [&mut self.normal, &mut self.point, &mut self.branch, &mut self.on_boundary, &mut self.on_particle];
+        vectors.into_iter().for_each(|vector| vector.z = 0.0);
+        self
+    }
+
     fn apart(proof: &Apart) -> Self {
         let flags = proof.by.with(Flags::REJECTED);
         Self { flags, s: 1.0, distance: proof.distance, ..Self::UNKNOWN }

@@ -4,7 +4,6 @@ use super::builder::pp_built;
 use super::derivative::{pp_derivatives, pp_shape_gradient};
 use super::patch::{pp_patch, pp_patch_state};
 use super::patch_derivatives::pp_patch_derivatives;
-use super::planar::{pp_area_properties, pp_patch_2d, pp_pose_2d};
 use super::types::*;
 use crate::answer::Row;
 use crate::{ClosestPoint, Contact, FlatContact, Settings};
@@ -53,10 +52,9 @@ macro_rules! sizes {
 }
 
 sizes! {
-    pp_pose, pp_settings, pp_contact, pp_closest, pp_mass_properties, pp_pose_2d, pp_contact_2d, pp_closest_2d,
-    pp_area_properties, pp_flat_contact, pp_pair_state, pp_patch, pp_patch_point, pp_patch_2d, pp_patch_point_2d,
-    pp_patch_state, pp_derivatives, pp_contact_weights, pp_shape_gradient, pp_pose_gradient, pp_patch_derivatives,
-    pp_built,
+    pp_pose, pp_settings, pp_contact, pp_closest, pp_mass_properties, pp_flat_contact, pp_pair_state, pp_patch,
+    pp_patch_point, pp_patch_state, pp_derivatives, pp_contact_weights, pp_shape_gradient, pp_pose_gradient,
+    pp_patch_derivatives, pp_built,
 }
 
 /// Size in bytes of a struct as the loaded library knows it, by its name ("pp_contact"), to be compared with
@@ -71,17 +69,14 @@ pub unsafe extern "C" fn pp_struct_size(name: *const c_char) -> usize {
 
 /// The fields of a struct, for languages that make it of them: for each a line with its name, numpy's format
 /// of a number of it ("f8", "i4", "u4"), how many numbers it has, and its first byte. Known are pp_contact,
-/// pp_contact_2d, pp_closest, pp_closest_2d, pp_flat_contact and pp_settings; NULL for another name. Static
-/// text: do not free it.
+/// pp_closest, pp_flat_contact and pp_settings; NULL for another name. Static text: do not free it.
 ///
 /// Pointers: name is NULL or a text that ends with a zero byte.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn pp_struct_fields(name: *const c_char) -> *const c_char {
-    const STRUCTS: [(&[u8], &[Row]); 6] = [
-        (b"pp_contact", Contact::<3>::LAYOUT),
-        (b"pp_contact_2d", Contact::<2>::LAYOUT),
-        (b"pp_closest", ClosestPoint::<3>::LAYOUT),
-        (b"pp_closest_2d", ClosestPoint::<2>::LAYOUT),
+    const STRUCTS: [(&[u8], &[Row]); 4] = [
+        (b"pp_contact", Contact::LAYOUT),
+        (b"pp_closest", ClosestPoint::LAYOUT),
         (b"pp_flat_contact", FlatContact::LAYOUT),
         (b"pp_settings", Settings::LAYOUT),
     ];

@@ -1,11 +1,10 @@
 //! What a pointer that a function of C is given stands for: every kind is checked and converted here alone.
 
-use super::convert::{pose_in_plane, pose_in_space};
+use super::convert::pose_from;
 use super::particle::pp_particle;
-use super::planar::{pp_particle_2d, pp_pose_2d};
 use super::status::*;
 use super::types::*;
-use crate::{Contact, ContactWeights, Feature, FlatContact, PairState, Particle, Pose, Settings, planar};
+use crate::{Contact, ContactWeights, Feature, FlatContact, PairState, Particle, Pose, Settings};
 use std::mem::MaybeUninit;
 
 /// An argument, or a pointer and a count, that the library takes for a `T`.
@@ -54,9 +53,7 @@ macro_rules! objects {
 
 objects! {
     pp_particle => &'a Particle, |particle| Ok(&particle.0);
-    pp_particle_2d => &'a planar::Particle, |particle| Ok(&particle.0);
-    pp_pose => Pose, |pose| pose_in_space(pose);
-    pp_pose_2d => planar::Pose, |pose| pose_in_plane(pose);
+    pp_pose => Pose, |pose| pose_from(pose);
     pp_contact_weights => &'a ContactWeights, |weights| finite_weights(weights);
 }
 
@@ -98,8 +95,8 @@ const _: () = assert!(
 );
 
 /// A contact that a caller hands back: what is no enum in Rust was not written by this library.
-impl<'a, const N: usize> Argument<&'a Contact<N>> for *const Contact<N> {
-    unsafe fn take(self) -> Result<&'a Contact<N>, pp_status> {
+impl<'a> Argument<&'a Contact> for *const pp_contact {
+    unsafe fn take(self) -> Result<&'a Contact, pp_status> {
         // SAFETY: its first three fields are words; they are looked at before they count as enums.
         let [kind, formulation, back_end] = *unsafe { borrow(self.cast::<[u32; 3]>()) }?;
         match (kind, formulation, back_end) {
@@ -124,10 +121,10 @@ impl<'a> Argument<&'a FlatContact> for *const pp_flat_contact {
 }
 
 /// Where the library itself writes a contact.
-impl<'a, const N: usize> Argument<&'a mut MaybeUninit<Contact<N>>> for *mut Contact<N> {
+impl<'a> Argument<&'a mut MaybeUninit<Contact>> for *mut pp_contact {
     #[inline(always)]
-    unsafe fn take(self) -> Result<&'a mut MaybeUninit<Contact<N>>, pp_status> {
-        unsafe { self.cast::<MaybeUninit<Contact<N>>>().as_mut() }.ok_or(PP_NULL_POINTER)
+    unsafe fn take(self) -> Result<&'a mut MaybeUninit<Contact>, pp_status> {
+        unsafe { self.cast::<MaybeUninit<Contact>>().as_mut() }.ok_or(PP_NULL_POINTER)
     }
 }
 
@@ -142,7 +139,6 @@ impl<'a, const N: usize> Argument<&'a [f64; N]> for *const f64 {
 pub(super) trait Element {}
 impl<T> Element for *const T {}
 impl Element for pp_pose {}
-impl Element for pp_pose_2d {}
 
 /// An array, which may be NULL when it has no elements.
 impl<'a, T: Element> Argument<&'a [T]> for (*const T, usize) {

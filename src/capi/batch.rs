@@ -1,6 +1,6 @@
 //! The contacts of a whole step in one call.
 
-use super::argument::{Argument, Element, state_of, take};
+use super::argument::{state_of, take};
 use super::contact::contact;
 use super::convert::settings_status;
 use super::fence::{call, fenced};
@@ -9,8 +9,7 @@ use super::particle::pp_particle;
 use super::status::*;
 use super::types::*;
 use crate::contact::batch::{CHUNK, in_parallel, optional_chunks};
-use crate::{PairState, Settings};
-use std::mem::MaybeUninit;
+use crate::{Particle, Pose};
 
 /// Finds the contacts of many pairs of bodies: the way for a DEM program to hand over a whole step.
 ///
@@ -46,37 +45,13 @@ pub unsafe extern "C" fn pp_contact_detect_batch(
     contacts: *mut pp_contact,
     statuses: *mut pp_status,
 ) -> pp_status {
-    let bodies = (particles, poses, body_count);
-    // SAFETY: as the caller has promised.
-    unsafe { detect_batch(bodies, (pairs, pair_count), settings, threads, states, (contacts, statuses), contact) }
-}
-
-/// pp_contact_detect_batch of particles P, which are X, at poses Q, which are Y, with contacts C: `contact` finds the
-/// contact of two and writes it.
-///
-/// # Safety
-/// Pointers and counts are as pp_contact_detect_batch asks for.
-pub(super) unsafe fn detect_batch<'a, P: 'a, Q: Element + 'a, X: Sync + 'a, Y: Sync, C: Send>(
-    (particles, poses, body_count): (*const *const P, *const Q, usize),
-    (pairs, pair_count): (*const u32, usize),
-    settings: *const pp_settings,
-    threads: u32,
-    states: *mut pp_pair_state,
-    (contacts, statuses): (*mut C, *mut pp_status),
-    contact: impl Fn((&X, &Y), (&X, &Y), &Settings, Option<&mut PairState>, &mut MaybeUninit<C>) -> Result<(), pp_status>
-    + Sync,
-) -> pp_status
-where
-    *const P: Argument<&'a X>,
-    *const Q: Argument<Y>,
-{
     let state_count = if states.is_null() { 0 } else { pair_count };
     call!([particles[body_count], poses[body_count], pairs[pair_count], states[state_count], settings], {
         // SAFETY: as the caller has promised.
         let (contacts, statuses) = unsafe { (outputs(contacts, pair_count)?, outputs(statuses, pair_count)?) };
         settings.validate().map_err(settings_status)?;
 
-        let body = |(&particle, pose): (&*const P, &Q)| -> Result<(&X, Y), pp_status> {
+        let body = |(&particle, pose): (&*const pp_particle, &pp_pose)| -> Result<(&Particle, Pose), pp_status> {
             let pose = std::ptr::from_ref(pose);
             Ok((take!(particle)?, take!(pose)?))
         };

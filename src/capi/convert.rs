@@ -1,9 +1,8 @@
 //! The one conversion of each plain struct of the C interface to the Rust type, or back.
 
-use super::planar::pp_pose_2d;
 use super::status::*;
 use super::types::*;
-use crate::{DetectError, MassProperties, Plane, Pose, PoseError, Role, Section, SettingsError, planar};
+use crate::{DetectError, MassProperties, Plane, Pose, PoseError, Role, Section, SettingsError};
 use nalgebra::SVector;
 
 /// Rows of a, b, c, d.
@@ -12,17 +11,10 @@ pub(super) fn planes_of(rows: &[[f64; 4]]) -> Vec<Plane> {
 }
 
 #[inline]
-pub(super) fn pose_in_space(pose: &pp_pose) -> Result<Pose, pp_status> {
+pub(super) fn pose_from(pose: &pp_pose) -> Result<Pose, pp_status> {
     Pose::new(pose.position, pose.orientation).map_err(|error| match error {
         PoseError::Position(..) => PP_BAD_POSITION,
-        PoseError::Orientation(..) | PoseError::Rotation(_) => PP_BAD_ORIENTATION,
-    })
-}
-
-pub(super) fn pose_in_plane(pose: &pp_pose_2d) -> Result<planar::Pose, pp_status> {
-    planar::Pose::new(pose.position, pose.angle).map_err(|error| match error {
-        planar::PoseError::Position(..) => PP_BAD_POSITION,
-        planar::PoseError::Angle(_) => PP_BAD_ORIENTATION,
+        PoseError::Orientation(..) | PoseError::Rotation(_) | PoseError::Angle(_) => PP_BAD_ORIENTATION,
     })
 }
 
@@ -56,6 +48,7 @@ pub(super) fn role_from(on: u32) -> Result<Role, pp_status> {
 pub(super) fn detect_status(error: DetectError) -> pp_status {
     match error {
         DetectError::Settings(error) => settings_status(error),
+        DetectError::InPlane(_) => PP_NOT_IN_PLANE,
         DetectError::Failed { .. } => PP_SOLVER_FAILED,
         DetectError::NoSuchBody { .. } | DetectError::Length { .. } => PP_BAD_INDEX,
     }

@@ -211,6 +211,7 @@ fn added<const N: usize>(
 fn status_of(error: DerivativeError) -> pp_status {
     match error {
         DerivativeError::Settings(error) => settings_status(error),
+        DerivativeError::InPlane(_) => PP_NOT_IN_PLANE,
         DerivativeError::NoPoint | DerivativeError::NotFinite | DerivativeError::NoTriangle => PP_BAD_POINT,
         DerivativeError::NoGradient | DerivativeError::NoCurvature => PP_NO_DERIVATIVE,
         DerivativeError::Detect(error) => detect_status(error),

@@ -55,6 +55,63 @@ pub unsafe extern "C" fn pp_particle_new(
     })
 }
 
+/// Creates a particle in the plane z = 0 from count lines a x + b y = d: that of the planes (a, b, 0, d), of
+/// which only the cut at z = 0 counts.
+///
+/// It is used as any other, at poses with z = 0 and a turn about z alone, together with particles in the plane
+/// or with planes whose normal is (x, y, 0): PP_NOT_IN_PLANE otherwise. Answers lie at z = 0. Areas are lengths,
+/// volumes areas, and masses, forces of patches and energies are per unit of depth.
+/// lines: count rows of a, b, d (outward normal and offset); may be NULL when count is 0. r, k, shadow_radius,
+/// out, message, errors: as of pp_particle_new, the codes of planes for lines; for k = 0 the lines must enclose
+/// an area.
+/// Pointers: lines points to 3*count doubles, out to one pointer, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_new_in_plane(
+    lines: *const f64,
+    count: usize,
+    r: f64,
+    k: f64,
+    shadow_radius: f64,
+    out: *mut *mut pp_particle,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    explain!(message[message_size], "out", New(out), [], {
+        // Before they are looked at.
+        if count > PP_MAX_PLANES {
+            return Err(ParticleError::TooManyLines(count).into());
+        }
+        let lines = take!(lines[count]).map_err(|status| Refused::argument(status, "lines"))?;
+        Ok(pp_particle(Particle::in_plane(lines, r, k, shadow_radius)?))
+    })
+}
+
+/// Creates a particle in the plane z = 0 from points whose convex hull is a polygon with rounded corners; it is
+/// used as one of pp_particle_new_in_plane.
+///
+/// The local origin is the centroid of the polygon, its sides are those of the polygon (k = 0), and the shadow
+/// circle goes through its outermost corner.
+/// points: count rows of x, y, in any order.
+/// r: rounding radius, length, less than the distance of each side from the centroid. k: sphericity, in [0, 1].
+/// out: receives the particle; release it with pp_particle_free.
+/// message: receives, on failure, a sentence that names the point or value (may be NULL).
+/// Errors: PP_NULL_POINTER, PP_PLANE_NOT_FINITE (a point is not), PP_UNBOUNDED (the points enclose no area),
+/// PP_BAD_SPHERICITY, PP_BAD_ROUNDING_RADIUS, PP_TOO_MANY_PLANES, PP_BAD_INDEX (a count that no memory could
+/// hold).
+/// Pointers: points points to 2*count doubles, out to one pointer, message to message_size bytes.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn pp_particle_new_polygon(
+    points: *const f64,
+    count: usize,
+    r: f64,
+    k: f64,
+    out: *mut *mut pp_particle,
+    message: *mut c_char,
+    message_size: usize,
+) -> pp_status {
+    explain!(message[message_size], "out", New(out), [points[count]], Ok(pp_particle(Particle::polygon(points, r, k)?)))
+}
+
 /// The same shape factor times as large: d, r and R multiplied by it.
 ///
 /// out: receives the new particle; release it with pp_particle_free.

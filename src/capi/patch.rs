@@ -13,7 +13,7 @@ use std::cell::RefCell;
 /// The contact patch of two bodies A and B, or of A and a flat boundary B: the surface on which the scales of
 /// both are equal and at most 1, with the pressure p = K length (1 - s), K the caller's stiffness per area
 /// (force/length^3). What is proportional to K is given over K. World axes; lengths in the caller's unit.
-/// Its normal n points from A to B.
+/// Its normal n points from A to B. In the plane it is a curve: areas are lengths, all is per unit of depth.
 #[repr(C)]
 #[derive(Clone, Copy, Debug)]
 pub struct pp_patch {
@@ -24,7 +24,7 @@ pub struct pp_patch {
     /// Estimated relative error, the largest of three: of the force; of the torque, relative to |force| times
     /// the reach of the patch; of the energy, if asked for.
     pub error: f64,
-    /// Estimated relative error of the area.
+    /// Estimated relative error of the area; NaN in the plane.
     pub area_error: f64,
     /// pp_particle_depth_length of A, plus that of B for two particles.
     pub length: f64,
@@ -193,13 +193,6 @@ pub unsafe extern "C" fn pp_patch_on_triangle(
     })
 }
 
-/// A patch in space or in the plane, as it is written.
-pub(super) trait Answer {
-    type InC;
-    fn points(&self) -> usize;
-    fn in_c(&self) -> Self::InC;
-}
-
 /// Writes the patch that `run` finds with the scratch of this thread and with the state, unless points are wanted,
 /// which a patch that is carried on does not have; its points, and their number. One that has more points than there
 /// is room for is refused.
@@ -207,11 +200,11 @@ pub(super) trait Answer {
 /// # Safety
 /// `state` is NULL or exclusively ours for the call; points, if not NULL, is valid for writing `capacity` points, the
 /// others are NULL or valid for writing.
-pub(super) unsafe fn answer<Patch: Answer, Point>(
-    run: impl FnOnce(&mut PatchScratch, Option<&mut PatchState>, &mut dyn FnMut(Point)) -> Result<Patch, PatchError>,
+unsafe fn answer(
+    run: impl FnOnce(&mut PatchScratch, Option<&mut PatchState>, &mut dyn FnMut(PatchPoint)) -> Result<Patch, PatchError>,
     state: *mut pp_patch_state,
-    out: *mut Patch::InC,
-    (points, capacity, count): (*mut Point, usize, *mut usize),
+    out: *mut pp_patch,
+    (points, capacity, count): (*mut pp_patch_point, usize, *mut usize),
 ) -> Result<(), pp_status> {
     check_room(out, 1)?;
     check_room(points, capacity)?;
@@ -219,56 +212,50 @@ pub(super) unsafe fn answer<Patch: Answer, Point>(
     // SAFETY: as promised; the state holds as many bytes, all of them of numbers of which any value is one.
     let (state, places) = unsafe { (state.cast::<PatchState>().as_mut(), outputs(points, capacity)?) };
     let mut places = places.iter_mut();
-    let mut visit = |point: Point| _ = places.next().map(|place| place.write(point));
+    let mut visit = |point: PatchPoint| _ = places.next().map(|place| place.write(point));
     let state = state.filter(|_| capacity == 0);
     let patch = with_scratch(|scratch| run(scratch, state, &mut visit))?;
     // SAFETY: checked, and as promised.
     unsafe {
-        IfWanted(count).put(|| patch.points())?;
-        if capacity > 0 && patch.points() > capacity {
+        IfWanted(count).put(|| patch.points)?;
+        if capacity > 0 && patch.points > capacity {
             return Err(PP_BUFFER_TOO_SMALL);
         }
-        out.write(patch.in_c());
+        out.write((&patch).into());
     }
     Ok(())
 }
 
 /// What is found with the scratch of this thread.
-pub(super) fn with_scratch<Patch>(
+pub(super) fn with_scratch(
     run: impl FnOnce(&mut PatchScratch) -> Result<Patch, PatchError>,
 ) -> Result<Patch, pp_status> {
     SCRATCH.with_borrow_mut(run).map_err(patch_status)
 }
 
-impl Answer for Patch {
-    type InC = pp_patch;
-
-    fn points(&self) -> usize {
-        self.points
-    }
-
-    fn in_c(&self) -> pp_patch {
-        let m = &self.second_moment;
-        pp_patch {
-            flags: self.flags.bits(),
-            rays: self.rays as u32,
-            error: self.error,
-            area_error: self.area_error,
-            length: self.length,
-            force: self.force.into(),
-            torque: self.torque.into(),
-            pressure_centre: self.pressure_centre.into(),
-            branch_a: self.branch_a.into(),
-            branch_b: self.branch_b.into(),
-            couple: self.couple,
-            area: self.area,
-            centroid: self.centroid.into(),
+impl From<&Patch> for pp_patch {
+    fn from(patch: &Patch) -> Self {
+        let m = &patch.second_moment;
+        Self {
+            flags: patch.flags.bits(),
+            rays: patch.rays as u32,
+            error: patch.error,
+            area_error: patch.area_error,
+            length: patch.length,
+            force: patch.force.into(),
+            torque: patch.torque.into(),
+            pressure_centre: patch.pressure_centre.into(),
+            branch_a: patch.branch_a.into(),
+            branch_b: patch.branch_b.into(),
+            couple: patch.couple,
+            area: patch.area,
+            centroid: patch.centroid.into(),
             second_moment: [m.m11, m.m22, m.m33, m.m12, m.m23, m.m31],
-            polar_moment: self.polar_moment,
-            twist_lever: self.twist_lever,
-            mean_depth: self.mean_depth,
-            largest_depth: self.largest_depth,
-            energy: self.energy,
+            polar_moment: patch.polar_moment,
+            twist_lever: patch.twist_lever,
+            mean_depth: patch.mean_depth,
+            largest_depth: patch.largest_depth,
+            energy: patch.energy,
         }
     }
 }
@@ -285,5 +272,6 @@ fn patch_status(error: PatchError) -> pp_status {
     match error {
         PatchError::Tolerance(_) => PP_BAD_SETTING,
         PatchError::Separated | PatchError::NotFinite => PP_BAD_POINT,
+        PatchError::InPlane(_) => PP_NOT_IN_PLANE,
     }
 }

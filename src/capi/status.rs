@@ -14,8 +14,7 @@ pub const PP_OK: pp_status = 0;
 pub const PP_NULL_POINTER: pp_status = 1;
 /// A pose holds a position that is not finite.
 pub const PP_BAD_POSITION: pp_status = 2;
-/// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150]; or, in the
-/// plane, an angle that is not finite, or beyond 2^30 radians.
+/// A pose holds a quaternion that is not finite, or of a length outside [1e-150, 1e150].
 pub const PP_BAD_ORIENTATION: pp_status = 3;
 /// A point or direction is not finite, a direction has no length, or a contact was not filled or is not
 /// of the kind that is needed.
@@ -43,6 +42,9 @@ pub const PP_DEGENERATE_TRIANGLE: pp_status = 13;
 pub const PP_BAD_TOLERANCE: pp_status = 14;
 /// The contact has no derivative: gradients or curvatures vanish there, as in the core of both bodies.
 pub const PP_NO_DERIVATIVE: pp_status = 15;
+/// One particle lies in the plane z = 0 and the other does not; or, of one that does, a pose, the normal of a
+/// plane or a triangle leaves that plane.
+pub const PP_NOT_IN_PLANE: pp_status = 16;
 
 /// A plane holds a coefficient that is not finite.
 pub const PP_PLANE_NOT_FINITE: pp_status = 20;
@@ -72,7 +74,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
     (PP_BAD_POSITION, c"a position is not finite"),
     (
         PP_BAD_ORIENTATION,
-        c"an orientation quaternion (w, x, y, z) is not finite, or of a length outside [1e-150, 1e150]; or, in the plane, an angle is not finite or beyond 2^30 radians: take whole turns off it",
+        c"an orientation quaternion (w, x, y, z) is not finite, or of a length outside [1e-150, 1e150]",
     ),
     (PP_BAD_POINT, c"a point or direction is not finite, a direction has no length, or a contact was not filled or is not of the kind that is needed"),
     (PP_UNKNOWN_FORMULATION, c"unknown formulation: use PP_MIDWAY or PP_CLOSEST"),
@@ -92,6 +94,7 @@ const MESSAGES: &[(pp_status, &CStr)] = &[
         c"the tolerance of a mesh must lie in [1e-5, 1]: the distance to the surface over the bounding radius",
     ),
     (PP_NO_DERIVATIVE, c"the contact has no derivative: the gradients, or the curvature across the normal, vanish at its point"),
+    (PP_NOT_IN_PLANE, c"one particle lies in the plane z = 0 and the other does not, or a boundary or pose leaves it: z, and x and y of the quaternion, must be 0"),
     (PP_PLANE_NOT_FINITE, c"a plane coefficient is not finite"),
     (
         PP_PLANE_ZERO_NORMAL,

@@ -62,12 +62,6 @@ pub type pp_patch_point = crate::PatchPoint;
 pub type pp_contact_weights = crate::ContactWeights;
 /// cbindgen:ignore
 pub type pp_pose_gradient = crate::PoseGradient;
-/// cbindgen:ignore
-pub type pp_contact_2d = crate::planar::Contact;
-/// cbindgen:ignore
-pub type pp_closest_2d = crate::planar::ClosestPoint;
-/// cbindgen:ignore
-pub type pp_patch_point_2d = crate::planar::PatchPoint;
 
 /// Volume and inertia of a particle of unit density, in its local frame.
 #[repr(C)]

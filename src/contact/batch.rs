@@ -102,28 +102,28 @@ pub fn detect_batch_into<T: Send>(
     detect_batch_by((one, refuse), (particles, poses), pairs, threads, states, answers)
 }
 
-/// A particle P at a pose Q.
-pub(crate) type Placed<'a, P = Particle, Q = Pose> = (&'a P, &'a Q);
+/// A particle at a pose.
+type Placed<'a> = (&'a Particle, &'a Pose);
 type Answer = Result<Contact, DetectError>;
 
 /// A small placeholder for each answer: a contact is large, and each will be written.
-pub(crate) fn unanswered<C: Clone>(pairs: usize) -> Vec<Result<C, DetectError>> {
+fn unanswered(pairs: usize) -> Vec<Answer> {
     vec![Err(DetectError::NoSuchBody { index: 0, bodies: 0 }); pairs]
 }
 
 /// What stands for a pair that names a body that is not there.
-pub(crate) fn refuse<C>(_: usize, answer: &mut Result<C, DetectError>, error: DetectError) {
+fn refuse(_: usize, answer: &mut Answer, error: DetectError) {
     *answer = Err(error);
 }
 
-/// [`detect_batch`] with settings that were checked, in space or in the plane: `detect` finds the answer T of the pair
-/// of this number, particles P at poses Q, with its state, if that is kept, and `refuse` writes an error in its place.
-pub(crate) fn detect_batch_by<P: Sync, Q: Sync, T: Send>(
+/// [`detect_batch`] with settings that were checked: `detect` finds the answer T of the pair of this number with its
+/// state, if that is kept, and `refuse` writes an error in its place.
+fn detect_batch_by<T: Send>(
     (detect, refuse): (
-        impl Fn(usize, Placed<P, Q>, Placed<P, Q>, Option<&mut PairState>, &mut T) + Sync,
+        impl Fn(usize, Placed, Placed, Option<&mut PairState>, &mut T) + Sync,
         impl Fn(usize, &mut T, DetectError) + Sync,
     ),
-    (particles, poses): (&[&P], &[Q]),
+    (particles, poses): (&[&Particle], &[Pose]),
     pairs: &[[u32; 2]],
     threads: usize,
     states: &mut [PairState],

@@ -10,11 +10,11 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
 use crate::solver::call::Call;
-use nalgebra::SVector;
+use nalgebra::Vector3;
 
 answer! {
     /// One closest point alone; frames and units as in [`Contact`](crate::Contact).
-    pub struct ClosestPoint<const N: usize = 3> {
+    pub struct ClosestPoint {
         /// 1 when there is no such point: for [`Role::A`] because the centre of B (for k = 0, its core) lies inside A,
         /// for [`Role::B`] the reverse. The numbers below are NaN then. Else 0.
         pub(crate) slack: u32 = 1,
@@ -27,11 +27,11 @@ answer! {
         /// Estimated bound on the distance of the point to the exact optimum, length.
         pub point_bound: f64 = f64::NAN,
         /// P1 or P2, world frame.
-        pub point: SVector<f64, N> = unknown_vector(),
+        pub point: Vector3<f64> = unknown_vector(),
         /// The point minus position of A: exact lever arm even far from the world origin.
-        pub branch_a: SVector<f64, N> = unknown_vector(),
+        pub branch_a: Vector3<f64> = unknown_vector(),
         /// The point minus position of B.
-        pub branch_b: SVector<f64, N> = unknown_vector(),
+        pub branch_b: Vector3<f64> = unknown_vector(),
     }
 }
 
@@ -65,6 +65,7 @@ pub fn closest_point(
     settings: &Settings,
 ) -> Result<Option<ClosestPoint>, DetectError> {
     settings.validate()?;
+    Particle::refuse_mixed((a, pose_a), (b, pose_b))?;
     let pair = Pair::new(a, pose_a, b, pose_b);
     let problem = match on {
         Role::A => Problem::OnA,

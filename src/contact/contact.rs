@@ -4,7 +4,7 @@ use crate::answer::{answer, words};
 use crate::flags::Flags;
 use crate::linalg::number::unknown_vector;
 use crate::settings::{BackEnd, Formulation};
-use nalgebra::SVector;
+use nalgebra::Vector3;
 use std::fmt;
 
 /// Whether the particles overlap. A failure is an error, never a kind, so that there will be no third.
@@ -30,10 +30,9 @@ impl fmt::Display for Kind {
 }
 
 answer! {
-    /// The answer for one pair; in the plane (pp_contact_2d) vectors have two components. Frames: world axes
-    /// unless said otherwise; lengths in the caller's unit; s, weight and gap have no unit. Fields that do not
-    /// apply are NaN.
-    pub struct Contact<const N: usize = 3> {
+    /// The answer for one pair. Frames: world axes unless said otherwise; lengths in the caller's unit; s, weight
+    /// and gap have no unit. Of particles in the plane every vector has z = 0. Fields that do not apply are NaN.
+    pub struct Contact {
         /// [`Kind::Separated`] or [`Kind::Overlapping`]. A failed solve has no kind: it returns a status.
         pub kind: Kind = Kind::Separated,
         /// The formulation that the geometry below answers ([`Formulation::Midway`] if [`Flags::SLACK`] is set).
@@ -67,17 +66,17 @@ answer! {
         /// Unit contact normal, from A to B (positive force on B pushes it along +normal), from the gradients
         /// of S_A and S_B; for k below flat_regularisation from those of the regularised shapes, so that it is
         /// defined even where flat-faced cores overlap.
-        pub normal: SVector<f64, N> = unknown_vector(),
+        pub normal: Vector3<f64> = unknown_vector(),
         /// Contact point, world frame: P3 of midway, or the weighted mean of P1 and P2 of closest.
-        pub point: SVector<f64, N> = unknown_vector(),
+        pub point: Vector3<f64> = unknown_vector(),
         /// Contact point minus position of A: exact lever arm even far from the world origin.
-        pub branch_a: SVector<f64, N> = unknown_vector(),
+        pub branch_a: Vector3<f64> = unknown_vector(),
         /// Contact point minus position of B.
-        pub branch_b: SVector<f64, N> = unknown_vector(),
+        pub branch_b: Vector3<f64> = unknown_vector(),
         /// Point on the surface of A inside B, world frame; P1 of closest. NaN when separated.
-        pub point_on_a: SVector<f64, N> = unknown_vector(),
+        pub point_on_a: Vector3<f64> = unknown_vector(),
         /// Point on the surface of B inside A, world frame; P2 of closest. NaN when separated.
-        pub point_on_b: SVector<f64, N> = unknown_vector(),
+        pub point_on_b: Vector3<f64> = unknown_vector(),
         /// Separated: lower bound on the distance between the two particles, length, with the rounding of s and
         /// of their bounding volumes estimated; 0 when none is known.
         /// NaN when overlapping.

@@ -21,7 +21,8 @@ use std::mem::MaybeUninit;
 
 /// Contact of A at `pose_a` with B at `pose_b`.
 ///
-/// `state` is what this ordered pair keeps from call to call: read, and updated on success.
+/// `state` is what this ordered pair keeps from call to call: read, and updated on success. Both particles may lie in
+/// the plane ([`Particle::in_plane`]); the contact lies there, too.
 ///
 /// ```
 /// use potential_particles::{Flags, Kind, PairState, Particle, Pose, Settings, detect};
@@ -41,7 +42,8 @@ use std::mem::MaybeUninit;
 /// ```
 ///
 /// # Errors
-/// A setting out of range, or no answer from any solver.
+/// A setting out of range, no answer from any solver, one particle in the plane with one in space, or a pose that
+/// leaves the plane.
 pub fn detect(
     a: &Particle,
     pose_a: &Pose,
@@ -67,6 +69,7 @@ pub(crate) fn detect_into<'o>(
     out: &'o mut MaybeUninit<Contact>,
 ) -> Result<&'o mut Contact, DetectError> {
     settings.validate()?;
+    Particle::refuse_mixed(a, b)?;
     let mut out = out;
     if let Some(state) = state.as_deref_mut().filter(|_| settings.carries_on()) {
         match reused(a, b, settings, state, out) {
@@ -155,7 +158,11 @@ fn solved(
 ) -> Result<Contact, DetectError> {
     let mut call = Call::new(pair, settings);
     // Unpacked again: a copy through memory would stall the proofs of separation.
-    let last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
+    let mut last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
+    if let Some(last) = last.as_mut().filter(|_| pair.b.is_in_plane()) {
+        // Of another pair it may lie elsewhere, and z stays 0 only from there on.
+        last.x.z = 0.0;
+    }
     // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are
     // closer than planes can tell.
     let last = last.filter(|last| last.how != How::Balanced || settings.solve_separated() || !call.is_sharp());

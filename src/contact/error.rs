@@ -1,5 +1,6 @@
 //! Why a contact has no answer.
 
+use crate::particle::in_plane::InPlaneError;
 use crate::settings::SettingsError;
 use crate::solver::call::SolveError;
 use thiserror::Error;
@@ -11,6 +12,9 @@ pub enum DetectError {
     /// A setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// One particle lies in the plane and the other does not, or something leaves the plane.
+    #[error(transparent)]
+    InPlane(#[from] InPlaneError),
     /// No solver reached an answer. The contact is unknown; this does not mean separated.
     #[error("no solver reached an answer ({reason}); the contact is unknown")]
     Failed {

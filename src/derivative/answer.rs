@@ -3,6 +3,7 @@
 use crate::contact::contact::Kind;
 use crate::contact::error::DetectError;
 use crate::flags::flag_set;
+use crate::particle::in_plane::InPlaneError;
 use crate::particle::particle::{Particle, Plane};
 use crate::settings::SettingsError;
 use nalgebra::{ArrayStorage, RowSVector, SMatrix, Vector3};
@@ -13,6 +14,7 @@ pub type PoseRow = RowSVector<f64, 12>;
 
 /// The derivative of a vector, world axes, in both poses. Columns: a shift of A along x, y, z and a turn of A about its
 /// position (of a boundary: see [`crate::boundary_derivatives`]) and x, y, z, world axes, radians; then the same of B.
+/// In the plane the columns that leave it are 0.
 pub type PoseRows = SMatrix<f64, 3, 12>;
 
 /// The derivatives of a contact in the poses of both bodies. What is NaN in the contact is NaN here.
@@ -53,6 +55,35 @@ impl ContactDerivatives {
         point_on_b: NO_ROWS,
         flags: DerivativeFlags(0),
     };
+
+    /// Of a contact in the plane, where bodies shift along x and y and turn about z.
+    pub(super) fn stay_in_plane(&mut self) {
+        for leaving in [2, 3, 4, 8, 9, 10] {
+            for row in [&mut self.s, &mut self.s_b, &mut self.overlap] {
+                row[leaving] = 0.0 * row[0];
+            }
+            for rows in [&mut self.normal, &mut self.point, &mut self.point_on_a, &mut self.point_on_b] {
+                let zero = 0.0 * rows[(0, 0)];
+                rows.column_mut(leaving).fill(zero);
+            }
+        }
+    }
+}
+
+impl ContactWeights {
+    /// Of a contact in the plane, where nothing has a z.
+    pub(super) fn in_plane(mut self) -> Self {
+        let vectors = [&mut self.normal, &mut self.point, &mut self.point_on_a, &mut self.point_on_b];
+        vectors.into_iter().for_each(|vector| vector.z = 0.0);
+        self
+    }
+}
+
+impl PoseGradient {
+    /// Of a body in the plane.
+    pub(super) fn stay_in_plane(&mut self) {
+        (self.shift.z, self.turn.x, self.turn.y) = (0.0, 0.0, 0.0);
+    }
 }
 
 /// Derivatives of the caller's cost with respect to the fields of a contact. For a field that is NaN in the
@@ -156,6 +187,9 @@ pub enum DerivativeError {
     /// A setting is out of range.
     #[error(transparent)]
     Settings(#[from] SettingsError),
+    /// One particle lies in the plane and the other does not, or something leaves the plane.
+    #[error(transparent)]
+    InPlane(#[from] InPlaneError),
     /// The pair was rejected without a contact point.
     #[error("the contact has no point: separation was proved without one; detect it with solve_separated")]
     NoPoint,

@@ -46,6 +46,9 @@ pub fn boundary_derivatives(
     let mut derivatives = ContactDerivatives::NONE;
     linearised(a, pose, triangle, contact, settings, |linearised| linearised.in_poses(&mut derivatives))?;
     derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+    if a.is_in_plane() {
+        derivatives.stay_in_plane();
+    }
     Ok(derivatives)
 }
 
@@ -67,8 +70,9 @@ pub fn boundary_gradient(
 ) -> Result<([PoseGradient; 2], DerivativeFlags), DerivativeError> {
     let mut sum = Gradient { poses: Default::default(), shapes: [shape, None] };
     sum.check([a, a])?;
+    let weights = if a.is_in_plane() { weights.in_plane() } else { *weights };
     let mut flags =
-        linearised(a, pose, triangle, contact, settings, |linearised| linearised.add_to(&mut sum, weights))?;
+        linearised(a, pose, triangle, contact, settings, |linearised| linearised.add_to(&mut sum, &weights))?;
     flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
     // Where both move alike, points and normal go with them.
     let mut both =
@@ -80,7 +84,11 @@ pub fn boundary_gradient(
         both.turn += (contact.on_particle - pose.position()).cross(&weights.point_on_a);
     }
     let [of_a, _] = sum.poses;
-    Ok(([of_a, PoseGradient { shift: both.shift - of_a.shift, turn: both.turn - of_a.turn }], flags))
+    let mut poses = [of_a, PoseGradient { shift: both.shift - of_a.shift, turn: both.turn - of_a.turn }];
+    if a.is_in_plane() {
+        poses.iter_mut().for_each(PoseGradient::stay_in_plane);
+    }
+    Ok((poses, flags))
 }
 
 /// `then` of the optimality conditions.
@@ -99,6 +107,7 @@ fn linearised<T>(
     if !(contact.s >= 0.0 && contact.s.is_finite() && surface && on_boundary) {
         return Err(DerivativeError::without_point(contact.kind));
     }
+    a.refuse_slanted(pose, &contact.normal)?;
     if contact.s == 0.0 || contact.flags.contains(Flags::NORMAL_BY_BOUNDARY) {
         return Err(DerivativeError::NoGradient);
     }

@@ -52,6 +52,9 @@ pub fn contact_derivatives(
     let mut derivatives = ContactDerivatives::NONE;
     linearised((a, pose_a), (b, pose_b), contact, settings, |linearised| linearised.in_poses(&mut derivatives))?;
     derivatives.flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+    if a.is_in_plane() {
+        derivatives.stay_in_plane();
+    }
     Ok(derivatives)
 }
 
@@ -93,9 +96,13 @@ pub fn contact_gradient(
 ) -> Result<([PoseGradient; 2], DerivativeFlags), DerivativeError> {
     let mut sum = Gradient { poses: Default::default(), shapes: [shape_a, shape_b] };
     sum.check([a, b])?;
+    let weights = if a.is_in_plane() { weights.in_plane() } else { *weights };
     linearised((a, pose_a), (b, pose_b), contact, settings, |linearised| {
-        let mut flags = linearised.add_to(&mut sum, weights);
+        let mut flags = linearised.add_to(&mut sum, &weights);
         flags.set(DerivativeFlags::SEPARATED, contact.kind == Kind::Separated);
+        if a.is_in_plane() {
+            sum.poses.iter_mut().for_each(PoseGradient::stay_in_plane);
+        }
         (sum.poses, flags)
     })
 }
@@ -344,6 +351,7 @@ fn linearised<T>(
     then: impl FnOnce(&dyn Linearised) -> T,
 ) -> Result<T, DerivativeError> {
     settings.validate()?;
+    Particle::refuse_mixed(a, b)?;
     let closest = contact.formulation == Formulation::Closest;
     let scales = contact.s > 0.0 && contact.s.is_finite() && (!closest || contact.s_b > 0.0 && contact.s_b.is_finite());
     let surfaces = contact.kind == Kind::Separated || is_finite(&contact.point_on_a) && is_finite(&contact.point_on_b);

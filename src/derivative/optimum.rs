@@ -99,6 +99,11 @@ pub(super) fn normal_at<N: Single>(kind: Kind, places: &[Place<N>; 2]) -> Vector
     })
 }
 
+#[inline(always)]
+fn is_in_plane<N: Single>(places: &[Option<Place<N>>; 2]) -> bool {
+    places[0].as_ref().is_some_and(|place| place.body.particle.is_in_plane())
+}
+
 fn flat<N: Single>() -> Field<N> {
     let zero = N::of(0.0);
     Field {
@@ -166,7 +171,9 @@ impl<N: Single> Local<N> {
     #[inline(always)]
     fn inverse(&self, kind: Kind, places: &[Option<Place<N>>; 2]) -> Result<(Matrix2<N>, f64, bool), DerivativeError> {
         let h = self.across;
-        let dimensions = if let Kind::OnBoundary(dimensions) = kind { dimensions } else { 2 };
+        let across = if let Kind::OnBoundary(dimensions) = kind { dimensions } else { 2 };
+        // In the plane along the first axis alone.
+        let dimensions = if is_in_plane(places) { across.min(1) } else { across };
         if dimensions == 0 {
             return Ok((Matrix2::zeros(), f64::INFINITY, false));
         }
@@ -210,12 +217,14 @@ impl<'a, N: Single> Optimum<'a, N> {
             let first = across * (N::of(1.0) / dot3(&across, &across).root());
             Matrix3::from_columns(&[first, normal.cross(&first), *normal])
         };
+        let is_in_plane = is_in_plane(&places);
         let mut axes = axes_along(match along {
             Some(along) => along - normal * dot3(normal, &along),
+            None if is_in_plane => Vector3::new(-normal.y, normal.x, N::of(0.0)),
             None => normal.cross(&least_axis(&normal.map(N::approximate)).map(N::of)),
         });
         let mut local = Local::of(kind, &places, &axes);
-        if let Some(stiffest) = local.graded().filter(|_| along.is_none()) {
+        if let Some(stiffest) = local.graded().filter(|_| along.is_none() && !is_in_plane) {
             let [x, y] = [N::of(stiffest.x), N::of(stiffest.y)];
             axes = axes_along(axes.column(0) * x + axes.column(1) * y);
             local = Local::of(kind, &places, &axes);

@@ -17,6 +17,8 @@ pub enum PackError {
     EmptyCylinder { radius: f64, height: f64 },
     #[error("there is no shape to pack: give at least one")]
     NoShapes,
+    #[error("shape {0} lies in the plane: give a particle of planes")]
+    InPlane(usize),
     #[error("there are no sizes: give at least one of them with its share")]
     NoSizes,
     #[error("size {size:?} (entry {index}) must be positive and finite")]

@@ -47,6 +47,9 @@ impl<'a> Supply<'a> {
         if shapes.is_empty() {
             return Err(PackError::NoShapes);
         }
+        if let Some(index) = shapes.iter().position(Particle::is_in_plane) {
+            return Err(PackError::InPlane(index));
+        }
         if !(margin >= 0.0 && margin.is_finite()) {
             return Err(PackError::Margin(margin));
         }

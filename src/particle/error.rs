@@ -86,15 +86,10 @@ impl ToleranceError {
     pub(crate) fn refuse_relative(given: f64) -> Result<(), Self> {
         if (LEAST_TOLERANCE..=1.0).contains(&given) { Ok(()) } else { Err(Self { given, range: "in [1e-12, 1]" }) }
     }
-
-    /// A length, if it is one.
-    pub(crate) fn refuse_length(given: f64) -> Result<(), Self> {
-        if given > 0.0 && given.is_finite() { Ok(()) } else { Err(Self { given, range: "a length above 0" }) }
-    }
 }
 
 impl ParticleError {
-    /// The same error for a two-dimensional particle, whose planes (a, b, 0, d) the caller gave as lines.
+    /// The same error for a particle in the plane, whose planes (a, b, 0, d) the caller gave as lines.
     pub(crate) fn of_lines(self) -> Self {
         match self {
             Self::PlaneNotFinite { index, a, b, d, .. } => Self::LineNotFinite { index, a, b, d },

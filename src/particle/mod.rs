@@ -20,7 +20,9 @@
 //! | `direction_mesh` | a partition of all directions along faces and edges |
 //! | `quadrature` | a rule on an interval, and what its error is at most |
 //! | `mass_properties` | volume, centroid and inertia |
+//! | `polygon` | convex polygons in the plane, from points |
 //! | `particle` | the public interface |
+//! | `in_plane` | particles in the plane, and what their poses must keep |
 
 pub mod bounding_volumes;
 pub mod coplanar;
@@ -28,6 +30,7 @@ pub mod cutter;
 pub mod direction_mesh;
 pub mod error;
 pub mod gauge;
+pub mod in_plane;
 pub mod largest_ball;
 pub mod linear_program;
 pub mod mass_properties;
@@ -36,6 +39,7 @@ pub mod outlines;
 pub mod particle;
 pub mod plane;
 pub mod plane_clusters;
+pub mod polygon;
 pub mod polyhedron;
 pub mod potential;
 pub mod quadrature;

@@ -2,9 +2,8 @@
 
 use crate::linalg::number;
 pub use crate::particle::error::ParticleError;
-use crate::particle::error::ToleranceError;
-use crate::particle::mass_properties::{self, MassProperties};
 pub use crate::particle::plane::{MAX_PLANES, Plane};
+use crate::particle::polygon::Polygon;
 use crate::particle::shape::Shape;
 use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
@@ -55,13 +54,66 @@ impl Particle {
         Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 3)?))
     }
 
-    /// The same for planes (a, b, 0, d) of which only the cut at z = 0 has to be bounded.
+    /// A particle in the plane z = 0, from its lines a·x + b·y = d (rows a, b, d, with outward normals), rounding
+    /// radius r, sphericity k and radius R of the shadow circle (paper eq. 1).
+    ///
+    /// It is the particle of planes (a, b, 0, d), of which only the cut at z = 0 counts. Contacts of two such particles
+    /// lie in the plane, too; areas, masses and forces of patches are per unit of depth.
+    ///
+    /// ```
+    /// use potential_particles::{Particle, Pose, Section, Settings, detect};
+    /// let square = [[1.0, 0.0, 0.9], [-1.0, 0.0, 0.9], [0.0, 1.0, 0.9], [0.0, -1.0, 0.9]];
+    /// let square = Particle::in_plane(&square, 0.1, 0.0, 1.0)?;
+    /// let (lower, upper) = (Pose::in_plane([0.0, 0.0], 0.0)?, Pose::in_plane([0.5, 1.95], 0.0)?);
+    /// let contact = detect(&square, &lower, &square, &upper, &Settings::default(), None)?;
+    /// assert!((contact.overlap - 0.05).abs() < 1e-9 && contact.point.z == 0.0);
+    /// let length = Section::from(&contact).area(&square, &lower, &square, &upper, 1e-6);
+    /// assert!(length.is_some_and(|length| length > 1.3 && length < 1.5));
+    /// // Turned about x it leaves the plane.
+    /// let leaning = Pose::new([0.5, 1.95, 0.0], [1.0, 0.1, 0.0, 0.0])?;
+    /// let error = detect(&square, &lower, &square, &leaning, &Settings::default(), None).unwrap_err();
+    /// assert!(error.to_string().contains("it turns about z alone"), "{error}");
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
     ///
     /// # Errors
-    /// Those of [`Particle::new`], in terms of lines.
-    pub(crate) fn in_plane(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
-        let shape = Shape::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?;
-        Ok(Self::of(shape))
+    /// Those of [`Particle::new`], in terms of lines; for k = 0 they must enclose an area.
+    pub fn in_plane(lines: &[[f64; 3]], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+        let planes: Vec<Plane> = lines.iter().map(|&[a, b, d]| Plane::from([a, b, 0.0, d])).collect();
+        Self::cut(&planes, r, k, shadow_radius)
+    }
+
+    /// A convex polygon with rounded corners in the plane z = 0, about its centroid, by points of which the corners are
+    /// the convex hull; otherwise as [`Particle::in_plane`].
+    ///
+    /// Its sides lie where those of the polygon are (for k = 0; for k > 0 they bulge by about k·r/2 and less than the
+    /// corners recede). The shadow circle goes through the outermost corner. r: rounding radius, length, less than the
+    /// distance of each side from the centroid. k: sphericity, in [0, 1].
+    ///
+    /// ```
+    /// use potential_particles::Particle;
+    /// let triangle = Particle::polygon(&[[0.0, 0.0], [3.0, 0.0], [0.0, 3.0]], 0.1, 0.0)?;
+    /// let mass = triangle.mass_properties(1e-9)?;
+    /// assert!(mass.volume < 4.5 && mass.centroid.norm() < 0.01);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
+    /// # Errors
+    /// Points that are not finite or enclose no area, r that is too large; and those of [`Particle::in_plane`].
+    pub fn polygon(points: &[[f64; 2]], r: f64, k: f64) -> Result<Self, ParticleError> {
+        let polygon = Polygon::hull(points)?;
+        Self::cut(&polygon.lines(r)?, r, k, polygon.radius())
+    }
+
+    /// Of planes (a, b, 0, d) the cut at z = 0.
+    pub(crate) fn cut(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+        Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?))
+    }
+
+    /// Whether it lies in the plane z = 0 ([`Particle::in_plane`]).
+    #[inline(always)]
+    pub fn is_in_plane(&self) -> bool {
+        self.shape.dimensions == 2
     }
 
     /// The second particle where the first one touches a plane, a line or a point of a boundary, of 2, 1 or 0
@@ -107,7 +159,12 @@ impl Particle {
     pub fn scaled(&self, factor: f64) -> Result<Self, ParticleError> {
         let scaled = |plane: Plane| Plane { offset: factor * plane.offset, ..plane };
         let planes: Vec<Plane> = self.planes().map(scaled).collect();
-        Self::new(&planes, factor * self.rounding_radius(), self.sphericity(), factor * self.shadow_radius())
+        let (r, k, shadow_radius) = (factor * self.rounding_radius(), self.sphericity(), factor * self.shadow_radius());
+        if self.is_in_plane() {
+            Self::cut(&planes, r, k, shadow_radius)
+        } else {
+            Self::new(&planes, r, k, shadow_radius)
+        }
     }
 
     /// f(x) = S(x) − 1 at a local point (paper eq. 2): negative inside, zero on the surface.
@@ -159,8 +216,8 @@ impl Particle {
         self.shape.depth_length
     }
 
-    /// Whether the planes alone enclose a volume. Where they do not (no planes, or one left out), only the shadow
-    /// sphere bounds the particle, at R/√k: for k > 0 that is valid, and seldom meant.
+    /// Whether the planes alone enclose a volume, in the plane the lines an area. Where they do not (no planes, or one
+    /// left out), only the shadow sphere bounds the particle, at R/√k: for k > 0 that is valid, and seldom meant.
     pub fn planes_enclose(&self) -> bool {
         self.shape.planes_enclose()
     }
@@ -196,18 +253,6 @@ impl Particle {
     /// particle, the direction is zero or something is not finite.
     pub fn surface_distance(&self, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
         ray_cast::distance(self, from, &number::direction(direction)?)
-    }
-
-    /// Volume, centroid and inertia to a relative tolerance ([`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is
-    /// usual), by adaptive quadrature over rays from the origin to the surface. The answer says how far off it may be.
-    ///
-    /// 1e-6 takes milliseconds for some tens of planes.
-    ///
-    /// # Errors
-    /// A tolerance outside [1e-12, 1].
-    pub fn mass_properties(&self, tolerance: f64) -> Result<MassProperties, ToleranceError> {
-        ToleranceError::refuse_relative(tolerance)?;
-        Ok(mass_properties::of(self, tolerance))
     }
 
     /// A cube for tests.

@@ -35,8 +35,8 @@ const SIZES: RangeInclusive<f64> = 1e-30..=1e30;
 pub struct Shape {
     /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
     pub(super) rows: Box<[[f64; 4]]>,
-    /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant (`planar`);
-    /// of a boundary 2, 1 or 0.
+    /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant
+    /// (`in_plane`); of a boundary 2, 1 or 0.
     pub(crate) dimensions: usize,
     pub(crate) rounding_radius: f64,
     pub(crate) sphericity: f64,

@@ -18,12 +18,12 @@ const DEEP: f64 = 1e-3;
 const DEEP_SPHERICITY: f64 = 1e-5;
 
 /// Overlaps within which planes are loaded first.
-pub(super) const NEAR: f64 = 4.0;
+const NEAR: f64 = 4.0;
 
 /// The patch of an overlapping contact of midway (of closest, its point and normal will do) of A with B.
 ///
 /// `visit` is called with each point of quadrature; their sums over area · depth · normal and so on are those of the
-/// answer.
+/// answer. Of particles in the plane the patch is a curve, and areas are lengths: all is per unit of depth.
 ///
 /// ```
 /// use potential_particles::{Particle, PatchScratch, PatchSettings, Pose, Settings, detect, patch_of_contact};
@@ -52,7 +52,8 @@ pub fn patch_of_contact(
     scratch: &mut PatchScratch,
     visit: impl FnMut(PatchPoint),
 ) -> Result<Patch, PatchError> {
-    let frame = checked(contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
+    Particle::refuse_mixed((a, pose_a), (b, pose_b))?;
+    let frame = checked(a, contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
     let (least, flags) = least_sphericity(contact.s);
     let task = Task {
         a: Placed::new(a, pose_a, &contact.branch_a, &frame, least),
@@ -108,8 +109,9 @@ pub fn patch_on_triangle(
     visit: impl FnMut(PatchPoint),
 ) -> Result<Patch, PatchError> {
     let normal = if from_front { -triangle.normal() } else { *triangle.normal() };
+    a.refuse_triangle()?;
     let branch = contact.on_boundary - pose.position();
-    let frame = checked(contact.kind, &[branch], &normal, settings)?;
+    let frame = checked(a, contact.kind, &[branch], &normal, settings)?;
     let corners = triangle.vertices().map(|vertex| frame.tr_mul(&((vertex - pose.position()) - branch)));
     // Counter-clockwise in the frame.
     let turned = if from_front { [0, 2, 1] } else { [0, 1, 2] };
@@ -134,7 +136,8 @@ fn on_boundary(
     scratch: &mut PatchScratch,
     visit: impl FnMut(PatchPoint),
 ) -> Result<Patch, PatchError> {
-    let frame = checked(contact.kind, &[*branch], normal, settings)?;
+    let frame = checked(a, contact.kind, &[*branch], normal, settings)?;
+    a.refuse_slanted(pose, normal)?;
     let (least, flags) = least_sphericity(contact.s);
     let task = Task {
         a: Placed::new(a, pose, branch, &frame, least),
@@ -153,14 +156,15 @@ fn on_boundary(
 }
 
 /// The sphericity to which smaller ones are raised, and the flag if it is above 0.
-pub(super) fn least_sphericity(s: f64) -> (f64, PatchFlags) {
+fn least_sphericity(s: f64) -> (f64, PatchFlags) {
     let mut flags = PatchFlags::default();
     flags.set(PatchFlags::DEEP, s < DEEP);
     (if s < DEEP { DEEP_SPHERICITY } else { 0.0 }, flags)
 }
 
-/// The frame of the patch, columns u, v, normal.
+/// The frame of the patch, columns u, v, normal; in the plane v is its axis.
 pub(super) fn checked(
+    a: &Particle,
     kind: Kind,
     branches: &[Vector3<f64>],
     normal: &Vector3<f64>,
@@ -176,6 +180,11 @@ pub(super) fn checked(
         return Err(PatchError::NotFinite);
     }
     let normal = normal.try_normalize(0.0).ok_or(PatchError::NotFinite)?;
+    if a.is_in_plane() {
+        let in_plane = branches.iter().chain([&normal]).all(|vector| vector.z == 0.0);
+        let frame = Matrix3::from_columns(&[Vector3::z().cross(&normal), Vector3::z(), normal]);
+        return if in_plane { Ok(frame) } else { Err(PatchError::NotFinite) };
+    }
     let first = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).try_normalize(0.0).ok_or(PatchError::NotFinite)?;
     Ok(Matrix3::from_columns(&[first, normal.cross(&first), normal]))
 }

@@ -37,7 +37,7 @@ fn outwards(field: &Field, body: &Placed, owner: Owner, x: &[f64; 3], normal: &[
         let [excess, rate] = [plane.excess + dot(&plane.normal, x), dot(&plane.normal, &direction)];
         (excess, rate)
     });
-    let power = if field.is_planar { 1 } else { 2 };
+    let power = if field.is_in_plane() { 1 } else { 2 };
     let (w, m) = (body.plane_weight, body.sphere_weight);
     let (mut from, mut sum) = (0.0, 0.0);
     let rule = &gauss(POINTS).nodes[..POINTS];

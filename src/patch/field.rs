@@ -91,8 +91,6 @@ pub(super) struct Field<'a, 's> {
     /// `None` for a rigid boundary: the patch then lies in the plane z = 0.
     pub b: Option<Placed<'a>>,
     pub planes: &'s mut Vec<FramePlane>,
-    /// Whether the bodies are particles of the plane v = 0.
-    pub is_planar: bool,
     loaded: f64,
     radius: f64,
 }
@@ -110,9 +108,14 @@ impl<'a, 's> Field<'a, 's> {
         planes.extend_from_slice(edges);
         let reach = |body: &Placed| body.particle.bounding_radius() + body.origin.norm();
         let radius = b.iter().map(reach).fold(reach(&a), f64::min);
-        let mut field = Self { a, b, planes, is_planar: false, loaded: -1.0, radius };
+        let mut field = Self { a, b, planes, loaded: -1.0, radius };
         field.load(distance);
         field
+    }
+
+    /// Whether the bodies are particles in the plane, which is v = 0 in their frame.
+    pub fn is_in_plane(&self) -> bool {
+        self.a.particle.is_in_plane()
     }
 
     /// Distance from the origin within which no plane is missing.

@@ -8,6 +8,7 @@ use super::field::{Field, FramePlane, Placed};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
+use super::rules::order_of;
 use super::scratch::PatchScratch;
 use super::settings::PatchSettings;
 use super::smoothness::norm;
@@ -62,7 +63,9 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let tolerance = task.settings.above(rounding);
     let state = field.state();
     let mut parts = Parts { task, field: &mut field, start, deepest, tolerance, planes: ray_planes, nodes, points };
-    let outcome = if parts.field.plane_count() <= FEW {
+    let outcome = if parts.field.is_in_plane() {
+        Some(parts.both_sides())
+    } else if parts.field.plane_count() <= FEW {
         parts.zones(pieces).or_else(|| parts.cells(cells))
     } else {
         parts.cells(cells).or_else(|| parts.zones(pieces))
@@ -92,6 +95,9 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     }
     if task.settings.with_stiffness && !is_empty {
         summary.patch.stiffness = task.length * turned(&stiffness(&field, points), &task.frame);
+        if field.is_in_plane() {
+            only_in_plane(&mut summary.patch.stiffness);
+        }
     }
     points.iter().for_each(|node| visit(summary.point(task, node)));
     Patch { flags, error, area_error, rays: outcome.rays, ..summary.patch }
@@ -139,6 +145,35 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
         Some(Outcome::of(&estimate, points))
     }
 
+    /// In the plane, where a patch is a curve: over it from the contact point to both sides.
+    fn both_sides(&mut self) -> Outcome {
+        let (tolerance, start) = (self.tolerance, self.start);
+        let Self { field, planes, nodes, points, .. } = self;
+        let mut walker = Walker::new(field, planes, nodes, order_of(tolerance));
+        walker.with_energy = self.task.settings.with_energy;
+        let walk = |walker: &mut Walker| {
+            walker.nodes.clear();
+            [1.0, -1.0].map(|sign| walker.walk(&Line { origin: start, direction: [sign, 0.0], is_polar: false }))
+        };
+        let mut rays = walk(&mut walker);
+        // A quarter of the tolerance for each rule, now that the force is known roughly.
+        walker.budget = 0.25 * tolerance * rays.iter().map(|ray| ray.sums[2]).sum::<f64>();
+        if rays.iter().any(|ray| ray.error > walker.budget) {
+            rays = walk(&mut walker);
+        }
+        points.clear();
+        points.append(walker.nodes);
+        let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
+        Outcome {
+            error: (rays[0].error + rays[1].error) / force,
+            area_error: f64::NAN,
+            energy: rays[0].sums[7] + rays[1].sums[7],
+            is_folded: rays.iter().any(|ray| ray.is_folded || ray.turns_back),
+            is_capped: false,
+            rays: 2,
+        }
+    }
+
     /// In the cells of the network.
     fn cells(&mut self, scratch: &mut CellScratch) -> Option<Outcome> {
         if !self.is_asked() {
@@ -150,6 +185,14 @@ impl<'a, 's> Parts<'_, '_, 'a, 's> {
         let mut walker = Walker::new(field, planes, nodes, 2);
         let estimate = cells(&mut walker, axis, deepest, tolerance, scratch, points)?;
         Some(Outcome::of(&estimate, points))
+    }
+}
+
+/// Leaves what shifts along x and y and a turn about z do in the plane.
+fn only_in_plane(stiffness: &mut Matrix6<f64>) {
+    for leaving in 2..5 {
+        stiffness.fill_row(leaving, 0.0);
+        stiffness.fill_column(leaving, 0.0);
     }
 }
 

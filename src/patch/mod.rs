@@ -37,8 +37,6 @@
 //! | `integration` | from the potentials to the answer |
 //! | `contact` | the patch of two particles, of a particle and a plane, of a particle and a triangle |
 //! | `patch_state` | what a pair keeps of its patch, and how that is carried on |
-//! | `planar` | the patch of two particles of the plane |
-//! | `planar_state` | how that is carried on |
 
 mod cap;
 mod cell;
@@ -61,8 +59,6 @@ mod patch;
 mod patch_state;
 mod piece;
 mod pieces;
-pub(crate) mod planar;
-mod planar_state;
 mod polygon;
 mod ray;
 mod ray_rule;

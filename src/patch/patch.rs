@@ -7,7 +7,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3};
 ///
 /// With the scale s of both bodies, Σ = {s_A = s_B ≤ 1} and the pressure p = K ℓ (1 − s) on it; K is the caller's
 /// stiffness per area (force/length³) and all that is proportional to it is given over K. The normal n of Σ points from
-/// A to B.
+/// A to B. In the plane Σ is a curve: areas are lengths, and all is per unit of depth.
 #[derive(Clone, Copy, Debug, Default)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 #[non_exhaustive]
@@ -45,14 +45,14 @@ pub struct Patch {
     pub energy: f64,
     /// Change of force and torque on B (rows) with a shift of A and a turn of A about the contact point (columns), over
     /// K, while B is held, and with it the point of reference and the axes: length² (force by shift) to length⁴ (torque
-    /// by turn). NaN unless it was asked for and integrated.
+    /// by turn). NaN unless it was asked for and integrated; 0 for what would leave the plane.
     pub stiffness: Matrix6<f64>,
     /// The farthest point of quadrature from the contact point.
     pub(super) reach: f64,
     /// Estimated error of the force over its size, of the torque over |force| times the reach of the patch, and of the
     /// energy, if asked for, over itself: the largest.
     pub error: f64,
-    /// Estimated relative error of the area.
+    /// Estimated relative error of the area; NaN in the plane, where nobody estimates it.
     pub area_error: f64,
     /// What else is to be known.
     pub flags: PatchFlags,

@@ -81,7 +81,7 @@ struct Place {
 }
 
 /// A pair as it is now.
-pub(super) struct Now<'a> {
+struct Now<'a> {
     of: [u64; 2],
     place: Place,
     /// Local frame of B to world axes.
@@ -121,7 +121,8 @@ impl PatchState {
         settings: &PatchSettings,
         scratch: &mut PatchScratch,
     ) -> Result<Patch, PatchError> {
-        checked(contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
+        Particle::refuse_mixed((a, pose_a), (b, pose_b))?;
+        checked(a, contact.kind, &[contact.branch_a, contact.branch_b], &contact.normal, settings)?;
         let now = Now::of_pair(
             [a, b],
             [pose_a, pose_b],
@@ -179,7 +180,7 @@ impl PatchState {
     }
 
     /// The patch by its stiffness, or by the integral, which is kept.
-    pub(super) fn carried_or(
+    fn carried_or(
         &mut self,
         now: &Now,
         settings: &PatchSettings,
@@ -283,7 +284,7 @@ impl Motion {
 
 impl<'a> Now<'a> {
     /// Two particles, and the branches from their centres to the contact point.
-    pub fn of_pair(
+    fn of_pair(
         [a, b]: [&Particle; 2],
         [pose_a, pose_b]: [&'a Pose; 2],
         branches: [&'a Vector3<f64>; 2],
@@ -310,7 +311,7 @@ impl<'a> Now<'a> {
         contact: &FlatContact,
         settings: &PatchSettings,
     ) -> Result<Self, PatchError> {
-        checked(contact.kind, &[*branch], &contact.normal, settings)?;
+        checked(a, contact.kind, &[*branch], &contact.normal, settings)?;
         // Serial numbers of no particle: one of planes, one of triangles.
         let boundary = if shape[1] == Vector3::zeros() { 0 } else { u64::MAX };
         Ok(Self {

@@ -1,5 +1,6 @@
 //! What is asked of a patch, and what is refused.
 
+use crate::particle::in_plane::InPlaneError;
 use thiserror::Error;
 
 /// The finest and the coarsest tolerance.
@@ -43,4 +44,7 @@ pub enum PatchError {
     /// The contact has no finite point or normal.
     #[error("the contact has no finite point and normal: take the answer of a call for the same bodies and poses")]
     NotFinite,
+    /// One particle lies in the plane and the other does not, or something leaves the plane.
+    #[error(transparent)]
+    InPlane(#[from] InPlaneError),
 }

@@ -16,6 +16,7 @@
 //! | `boundary` | the boundary of a cross-section, arc by arc, counter-clockwise |
 //! | `intersection` | the area of the intersection of two boundaries |
 //! | `moments` | area and moments of one particle's cut |
+//! | `outline` | the same of a particle in the plane: its mass properties, and points of its outline |
 //! | `quadrature` | the same by adaptive quadrature over rays: the fallback |
 
 mod arc;
@@ -26,7 +27,8 @@ mod depth;
 mod edge_curve;
 mod intersection;
 mod lines;
-pub(crate) mod moments;
+mod moments;
+pub(crate) mod outline;
 mod plane_section;
 mod quadrature;
 
@@ -85,6 +87,9 @@ impl Section {
     /// `None` when the section has no finite point or normal, and when the contact point lies outside a particle, that
     /// is S > 1 + 1e-6 by more than rounding: what a solver leaves counts as on the surface; and where the tolerance is
     /// not a number.
+    ///
+    /// In the plane: the contact length (YADE: jointLength), which is the area per unit of depth, exact to rounding;
+    /// `None` for one particle in the plane with one in space, too.
     pub fn area(
         &self,
         a: &Particle,
@@ -96,12 +101,34 @@ impl Section {
         if relative_tolerance.is_nan() {
             return None;
         }
+        if a.is_in_plane() | b.is_in_plane() {
+            return self.length((a, pose_a), (b, pose_b));
+        }
         let sections = self.in_local_frames([(a, pose_a), (b, pose_b)])?;
         match intersection::area(&sections) {
             Ok(area) => Some(area),
             Err(Failure::Outside) => None,
             Err(_) => quadrature::area(&sections, relative_tolerance),
         }
+    }
+
+    /// How much of the line of this plane in z = 0 lies in both particles: both cuts are intervals, and two rays find
+    /// the ends of each.
+    fn length(&self, a: (&Particle, &Pose), b: (&Particle, &Pose)) -> Option<f64> {
+        Particle::refuse_mixed(a, b).ok()?;
+        let normal = self.normal.try_normalize(0.0)?;
+        let along = Vector3::new(-normal.y, normal.x, 0.0);
+        let to_boundary = |(particle, pose): (&Particle, &Pose), branch: &Vector3<f64>, direction: &Vector3<f64>| {
+            particle.surface_distance(&pose.rotation().tr_mul(branch), &pose.rotation().tr_mul(direction))
+        };
+        let mut length = 0.0;
+        for direction in [along, -along] {
+            let to_a = to_boundary(a, &self.branch_a, &direction)?;
+            let to_b = to_boundary(b, &self.branch_b, &direction)?;
+            length += to_a.min(to_b);
+        }
+        // A point that rounding left outside gives intervals that may miss each other by as much.
+        Some(length.max(0.0))
     }
 
     fn in_local_frames<'a>(&self, bodies: [(&'a Particle, &Pose); 2]) -> Option<[PlaneSection<'a>; 2]> {
@@ -153,6 +180,22 @@ mod tests {
             let outside = Section { branch_a: Vector3::z(), branch_b: Vector3::zeros(), normal: Vector3::z() };
             let sections = outside.in_local_frames([(&particle, &pose_a), (&particle, &pose_b)]).unwrap();
             assert_eq!(intersection::area(&sections), Err(Failure::Outside));
+        }
+    }
+
+    /// The line enters the bulge of a face where it touches it, and comes out as far on the other side of the middle.
+    #[test]
+    fn a_line_through_a_point_that_rounding_left_outside_has_its_length() {
+        let lines = [[1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [-1.0, 0.0, 0.5], [0.0, -1.0, 0.5]];
+        let square = Particle::in_plane(&lines, 0.05, 0.3, 0.8).unwrap();
+        let pose = Pose::in_plane([3.0, -1.0], 0.4).unwrap();
+        let (middle, up) = (Vector3::new(0.3, 0.0, 0.0), Vector3::y());
+        let height = square.surface_distance(&middle, &up).unwrap();
+        for off in -20..=20 {
+            let branch = pose.rotation() * (middle + height * (1.0 + f64::from(off) * f64::EPSILON) * up);
+            let section = Section { branch_a: branch, branch_b: branch, normal: pose.rotation() * up };
+            let length = section.area(&square, &pose, &square, &pose, 1e-6).unwrap();
+            assert!((length - 0.6).abs() < 1e-12, "{off}: {length}");
         }
     }
 }

@@ -8,8 +8,10 @@
 
 use super::tangent_bound::{Rise, SurfacePoint, rise};
 use super::triangulation::Triangulation;
+use crate::linalg::number::direction;
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
+use crate::section::outline::outline;
 use nalgebra::Vector3;
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -35,7 +37,8 @@ pub struct SurfaceMesh {
 #[allow(missing_docs)]
 pub enum MeshError {
     #[error(
-        "mesh tolerance {0:?} is outside [1e-5, 1]: give the distance to the surface over the radius of the particle"
+        "mesh tolerance {0:?} is outside [1e-5, 1], in the plane [1e-9, 1]: give the distance to the surface over the radius of the \
+         particle"
     )]
     Tolerance(f64),
     #[error("a ray from the centre finds no surface: scale the particle to a size near 1")]
@@ -44,6 +47,9 @@ pub enum MeshError {
 
 /// Least tolerance: a sphere has about a million triangles then.
 const FINEST: f64 = 1e-5;
+
+/// The same in the plane: a circle has some 70,000 corners then.
+const FINEST_IN_PLANE: f64 = 1e-9;
 
 /// Most vertices times the tolerance, and besides: ten times those of a sphere, which needs more than other bodies of
 /// its radius. Only rounding needs more, as with normals of very different lengths; the error of the mesh then shows
@@ -62,17 +68,30 @@ const NEAR_EDGE: f64 = 1e-3;
 const COINCIDENT: f64 = 1e-12;
 
 impl SurfaceMesh {
-    /// The mesh whose distance to the surface is at most `tolerance` times the bounding radius.
+    /// The mesh whose distance to the surface is at most `tolerance` times the bounding radius. In the plane: vertices
+    /// are those of a polygon inside the outline, in order, and triangles fill it.
     ///
     /// # Errors
-    /// A tolerance outside [1e-5, 1], or a particle on whose surface rounding leaves no point.
+    /// A tolerance outside [1e-5, 1] (in the plane [1e-9, 1]), or a particle on whose surface rounding leaves no point.
     pub fn of(particle: &Particle, tolerance: f64) -> Result<Self, MeshError> {
-        if !(FINEST..=1.0).contains(&tolerance) {
+        let finest = if particle.is_in_plane() { FINEST_IN_PLANE } else { FINEST };
+        if !(finest..=1.0).contains(&tolerance) {
             return Err(MeshError::Tolerance(tolerance));
+        }
+        if particle.is_in_plane() {
+            return Self::in_plane(particle, tolerance);
         }
         let mut refinement = Refinement::start(particle, tolerance).ok_or(MeshError::NoSurface)?;
         refinement.run();
         Ok(refinement.finish())
+    }
+
+    fn in_plane(particle: &Particle, tolerance: f64) -> Result<Self, MeshError> {
+        let (points, error) = outline(particle, tolerance * particle.bounding_radius());
+        let vertices: Vec<Vector3<f64>> = points.iter().map(|point| point.push(0.0)).collect();
+        let normals: Option<Vec<_>> = vertices.iter().map(|vertex| direction(&particle.gradient(vertex))).collect();
+        let triangles = (2..vertices.len() as u32).map(|i| [0, i - 1, i]).collect();
+        Ok(Self { vertices, normals: normals.ok_or(MeshError::NoSurface)?, triangles, error })
     }
 }
 

@@ -39,33 +39,6 @@ pp_particle *new_pyramid(double r, double k, double shadow_radius) {
     return new_particle(planes, 5, r, k, shadow_radius);
 }
 
-void square_lines_2d(double core, double lines[3 * SQUARE_LINES]) {
-    for (int i = 0; i < SQUARE_LINES; i++) {
-        for (int j = 0; j < 2; j++) lines[3 * i + j] = j == i / 2 ? (i % 2 == 0 ? 1.0 : -1.0) : 0.0;
-        lines[3 * i + 2] = core;
-    }
-}
-
-pp_particle_2d *new_polygon_2d(const double *lines, size_t count, double r, double k, double shadow_radius) {
-    pp_particle_2d *particle = NULL;
-    char why[PP_MESSAGE_SIZE] = "";
-    if (pp_particle_new_2d(lines, count, r, k, shadow_radius, &particle, why, sizeof why) != PP_OK) {
-        printf("a polygon of the tests was refused: %s\n", why);
-        exit(2);
-    }
-    return particle;
-}
-
-pp_particle_2d *new_square_2d(double core, double r, double k, double shadow_radius) {
-    double lines[3 * SQUARE_LINES];
-    square_lines_2d(core, lines);
-    return new_polygon_2d(lines, SQUARE_LINES, r, k, shadow_radius);
-}
-
-pp_particle_2d *new_circle_2d(double radius) {
-    return new_polygon_2d(NULL, 0, 0.0, 1.0, radius);
-}
-
 pp_pose pose_at(double x, double y, double z) {
     return pose_turned(x, y, z, 1.0, 0.0, 0.0, 0.0);
 }

@@ -17,13 +17,6 @@ pp_particle *new_cube(double core, double r, double k, double shadow_radius);
 /* Five planes: a base and four sides, the centre inside. */
 pp_particle *new_pyramid(double r, double k, double shadow_radius);
 
-/* Four lines x, y = +-core. */
-#define SQUARE_LINES 4
-void square_lines_2d(double core, double lines[3 * SQUARE_LINES]);
-pp_particle_2d *new_polygon_2d(const double *lines, size_t count, double r, double k, double shadow_radius);
-pp_particle_2d *new_square_2d(double core, double r, double k, double shadow_radius);
-pp_particle_2d *new_circle_2d(double radius);
-
 pp_pose pose_at(double x, double y, double z);
 pp_pose pose_turned(double x, double y, double z, double w, double i, double j, double k);
 /* Local to world, without the position. */

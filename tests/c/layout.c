@@ -10,14 +10,12 @@
 static void sizes_are_those_of_the_library(void) {
     SIZE(pp_pose); SIZE(pp_settings); SIZE(pp_pair_state);
     SIZE(pp_contact); SIZE(pp_closest); SIZE(pp_mass_properties);
-    SIZE(pp_area_properties); SIZE(pp_pose_2d); SIZE(pp_contact_2d);
-    SIZE(pp_closest_2d); SIZE(pp_flat_contact);
+    SIZE(pp_flat_contact);
     SIZE(pp_patch); SIZE(pp_patch_point);
-    SIZE(pp_patch_2d); SIZE(pp_patch_point_2d); SIZE(pp_patch_state);
+    SIZE(pp_patch_state);
     SIZE(pp_derivatives); SIZE(pp_contact_weights);
     SIZE(pp_shape_gradient); SIZE(pp_pose_gradient); SIZE(pp_patch_derivatives);
     SIZE(pp_built);
-   
     CHECK(pp_struct_size("pp_particle") == 0 && pp_struct_size("") == 0 && pp_struct_size(NULL) == 0);
 }
 
@@ -40,9 +38,7 @@ static void fields_fill(const char *name, size_t size) {
 
 static void fields_are_those_of_the_library(void) {
     fields_fill("pp_contact", sizeof(pp_contact));
-    fields_fill("pp_contact_2d", sizeof(pp_contact_2d));
     fields_fill("pp_closest", sizeof(pp_closest));
-    fields_fill("pp_closest_2d", sizeof(pp_closest_2d));
     fields_fill("pp_flat_contact", sizeof(pp_flat_contact));
     fields_fill("pp_settings", sizeof(pp_settings));
     char row[64];
@@ -112,10 +108,4 @@ void test_layout(void) {
     CHECK(offsetof(pp_mass_properties, centroid) == 8);
     CHECK(offsetof(pp_mass_properties, inertia) == 32);
     CHECK(offsetof(pp_mass_properties, error) == 80);
-
-    CHECK(sizeof(pp_area_properties) == 56);
-    CHECK(offsetof(pp_area_properties, area) == 0);
-    CHECK(offsetof(pp_area_properties, centroid) == 8);
-    CHECK(offsetof(pp_area_properties, second_moment) == 24);
-    CHECK(offsetof(pp_area_properties, error) == 48);
 }

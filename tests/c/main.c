@@ -34,9 +34,7 @@ int main(int count, char **arguments) {
     test_hostile();
     test_threads();
     test_batch();
-    test_planar();
-    test_planar_batch();
-    test_planar_closest();
+    test_in_plane();
     test_patch();
     test_derivatives();
     test_builder();

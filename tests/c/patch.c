@@ -115,43 +115,6 @@ static void carried_on(void) {
     pp_particle_free(ball);
 }
 
-/* Two squares of the plane, face on face. */
-static void squares_of_the_plane(void) {
-    const double core = 0.5, r = 1e-4, overlap = 1e-7;
-    pp_particle_2d *square = new_square_2d(core, r, 0.0, 0.0);
-    pp_pose_2d pose_a = {{1, 2}, 0.0}, pose_b = {{1.2, 2 + 2 * (core + r) - overlap}, 0.0};
-    pp_contact_2d contact;
-    pp_patch_2d patch;
-    pp_patch_point_2d points[64];
-    size_t count = 0;
-    CHECK_STATUS(pp_contact_detect_2d(square, &pose_a, square, &pose_b, NULL, NULL, &contact), PP_OK);
-    CHECK_STATUS(
-        pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, NULL, &patch, points, 64, &count),
-        PP_OK);
-    CHECK_NEAR(patch.length, 0.8, 1e-4);
-    CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
-    CHECK_NEAR(patch.pressure_centre[0], 1.1, 1e-9);
-    CHECK_NEAR(patch.stiffness[4], 0.8, 2e-2); // that of the bed, and what the rounded ends add
-    CHECK_NEAR(patch.stiffness[5] - patch.stiffness[7], patch.force[0], 1e-9);
-    CHECK_NEAR(patch.energy, 0.4 * overlap * overlap, 1e-4 * overlap * overlap);
-    double length = 0;
-    for (size_t i = 0; i < count; i++) length += points[i].length;
-    CHECK_NEAR(length, patch.length, 1e-12);
-    pp_patch_state state = {0};
-    for (int i = 0; i < 3; i++)
-        CHECK_STATUS(
-            pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 1e-6, 1, &state, &patch, NULL, 0, NULL),
-            PP_OK);
-    CHECK(patch.flags & PP_PATCH_CARRIED);
-    CHECK_NEAR(patch.force[1], 0.8 * overlap, 1e-4 * overlap);
-    FILL(patch);
-    CHECK_STATUS(
-        pp_patch_of_contact_2d(square, &pose_a, square, &pose_b, &contact, 0.0, 0, NULL, &patch, NULL, 0, NULL),
-        PP_BAD_SETTING);
-    CHECK_UNTOUCHED(patch);
-    pp_particle_free_2d(square);
-}
-
 static void what_is_refused(void) {
     pp_particle *sphere = new_sphere(1.0);
     pp_pose pose_a = pose_at(0, 0, 0), pose_b = pose_at(1.9, 0, 0), far = pose_at(3, 0, 0);
@@ -197,6 +160,5 @@ void test_patch(void) {
     spheres();
     sphere_on_a_floor();
     carried_on();
-    squares_of_the_plane();
     what_is_refused();
 }

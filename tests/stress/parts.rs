@@ -8,7 +8,7 @@ use kit::stress::least::least;
 use kit::stress::ledger::{Fault, Ledger, run};
 use kit::stress::placed_boundary::{Boundary, Part};
 use kit::stress::reference::Body;
-use kit::stress::{hulls, mass, memories, patches, planar, seams, walls};
+use kit::stress::{hulls, in_plane, mass, memories, patches, seams, walls};
 use kit::wide::{Wide, Wide3};
 use nalgebra::Vector3;
 use potential_particles::{Feature, FlatContact, Kind, Particle, Plane};
@@ -47,8 +47,8 @@ fn triangles_that_share_an_edge_or_a_vertex_agree_on_it() {
 }
 
 #[test]
-fn random_pairs_of_the_plane() {
-    check("planar", &ledger(2_000, |index, ledger| planar::one(1, index, ledger)), 0.05);
+fn random_pairs_in_the_plane() {
+    check("in the plane", &ledger(2_000, |index, ledger| in_plane::one(1, index, ledger)), 0.05);
 }
 
 #[test]
@@ -170,16 +170,16 @@ fn the_least_s_is_that_of_closed_forms() {
 #[test]
 fn sine_and_cosine_have_32_digits() {
     // 0.84147098480789650665250232163029900 and 0.54030230586813971740093660744297661, as two doubles each.
-    let (sine, cosine) = planar::sine_and_cosine(1.0);
+    let (sine, cosine) = in_plane::sine_and_cosine(1.0);
     let off = |found: Wide, high: f64, low: f64| (found - Wide::from(high) - Wide::from(low)).f64().abs();
     assert!(off(sine, 0.841_470_984_807_896_5, 1.776_845_092_935_536e-18) < 1e-31);
     assert!(off(cosine, 0.540_302_305_868_139_8, -4.760_954_612_604_417e-17) < 1e-31);
     for angle in [0.3, 1.0, -2.5, 4.0, 100.0, 12345.678, 3e6] {
-        let (sine, cosine) = planar::sine_and_cosine(angle);
+        let (sine, cosine) = in_plane::sine_and_cosine(angle);
         assert!((sine * sine + cosine * cosine - Wide::ONE).f64().abs() < 1e-30);
         assert!((sine.f64() - angle.sin()).abs() < 2e-16 && (cosine.f64() - angle.cos()).abs() < 2e-16);
         // The angle doubled, in numbers that share no reduction.
-        let (doubled, _) = planar::sine_and_cosine(2.0 * angle);
+        let (doubled, _) = in_plane::sine_and_cosine(2.0 * angle);
         assert!((doubled - sine * cosine * Wide::from(2.0)).f64().abs() < 1e-30);
     }
 }

@@ -10,7 +10,7 @@ pub enum Part {
     Poses,
     Walls,
     Seams,
-    Planar,
+    InPlane,
     Memories,
     Mass,
     Patches,
@@ -34,7 +34,7 @@ pub struct Arguments {
     pub seams: Option<u64>,
     /// Pairs of particles of the plane; by default one for each twenty poses.
     #[arg(long)]
-    pub planar: Option<u64>,
+    pub in_plane: Option<u64>,
     /// Pairs that are solved from memories of any bytes; by default one for each twenty poses.
     #[arg(long)]
     pub memories: Option<u64>,

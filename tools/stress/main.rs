@@ -17,7 +17,7 @@ use kit::machine;
 use kit::stress::cases::{BULK, FAMILIES};
 use kit::stress::ledger::{self, Ledger};
 use kit::stress::tally::Tally;
-use kit::stress::{clock, hulls, mass, memories, pairs, patches, planar, seams, sweeps, walks, walls};
+use kit::stress::{clock, hulls, in_plane, mass, memories, pairs, patches, seams, sweeps, walks, walls};
 use report::Findings;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -32,7 +32,7 @@ fn main() -> ExitCode {
             Part::Poses => return replay::one(seed, index),
             Part::Walls => walls::replay(seed, index),
             Part::Seams => ledger::replay(|ledger| seams::one(seed, index, ledger)),
-            Part::Planar => ledger::replay(|ledger| planar::one(seed, index, ledger)),
+            Part::InPlane => ledger::replay(|ledger| in_plane::one(seed, index, ledger)),
             Part::Memories => ledger::replay(|ledger| memories::one(seed, index, ledger)),
             Part::Mass => mass::replay(seed, index),
             Part::Patches => ledger::replay(|ledger| patches::one(seed, index, ledger)),
@@ -91,7 +91,7 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     bar.finish_and_clear();
     let walls = |index, ledger: &mut Ledger| walls::one(seed, index, walls::solve, ledger);
     let seams = |index, ledger: &mut Ledger| seams::one(seed, index, ledger);
-    let planar = |index, ledger: &mut Ledger| planar::one(seed, index, ledger);
+    let in_plane = |index, ledger: &mut Ledger| in_plane::one(seed, index, ledger);
     let memories = |index, ledger: &mut Ledger| memories::one(seed, index, ledger);
     let patches = |index, ledger: &mut Ledger| patches::one(seed, index, ledger);
     let hulls = |index, ledger: &mut Ledger| hulls::one(seed, index, ledger);
@@ -99,7 +99,7 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let each: [(&'static str, Option<u64>, u64, One); 6] = [
         ("walls", arguments.walls, 10, &walls),
         ("seams", arguments.seams, 20, &seams),
-        ("planar", arguments.planar, 20, &planar),
+        ("in the plane", arguments.in_plane, 20, &in_plane),
         ("memories", arguments.memories, 20, &memories),
         ("patches", arguments.patches, 1000, &patches),
         ("hulls", arguments.hulls, 10, &hulls),

@@ -11,7 +11,10 @@ use potential_particles::{
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
-    let (Ok(a), Ok(b)) = (particle::likely(&mut bytes), particle::likely(&mut bytes)) else { return };
+    let in_plane = bytes.byte() > 190;
+    let particle = if in_plane { particle::in_plane } else { particle::likely };
+    let pose = if in_plane { pose_in_plane } else { pose };
+    let (Ok(a), Ok(b)) = (particle(&mut bytes), particle(&mut bytes)) else { return };
     let (Some(at_a), Some(at_b)) = (pose(&mut bytes), pose(&mut bytes)) else { return };
     let mut settings = Settings::default();
     let choices = bytes.byte();
@@ -42,6 +45,7 @@ pub fn run(data: &[u8]) {
     }
     let Ok(first) = first else { return };
     first.assert_whole();
+    assert!(!in_plane || !(first.point.z.abs() > 0.0 || first.normal.z.abs() > 0.0), "{first:?}");
     // The cone program costs a hundred times the rest: mostly once is enough.
     if first.back_end == BackEnd::ConeProgram && choices & 96 != 0 {
         return unharmed(&a, &b);
@@ -78,6 +82,17 @@ pub fn pose(bytes: &mut Bytes) -> Option<Pose> {
         _ => [0; 4].map(|_| bytes.number()),
     };
     Pose::new(position, orientation).ok()
+}
+
+fn pose_in_plane(bytes: &mut Bytes) -> Option<Pose> {
+    let position = [0; 2].map(|_| if bytes.byte() < 200 { 0.25 * bytes.ordinary() } else { bytes.number() });
+    let angle = match bytes.byte() {
+        0..=60 => 0.0,
+        61..=120 => std::f64::consts::FRAC_PI_2 * f64::from(bytes.byte() % 4),
+        121..=220 => bytes.ordinary(),
+        _ => bytes.number(),
+    };
+    Pose::in_plane(position, angle).ok()
 }
 
 fn unharmed(a: &Particle, b: &Particle) {

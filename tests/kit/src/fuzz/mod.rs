@@ -6,6 +6,5 @@ pub mod mass;
 pub mod memories;
 pub mod pairs_file;
 pub mod particle;
-pub mod planar;
 pub mod walls;
 mod whole;

@@ -57,3 +57,29 @@ pub fn likely(bytes: &mut Bytes) -> Result<Particle, ParticleError> {
     };
     Particle::new(&planes, r, k, 2.0 * half.iter().copied().fold(0.0, f64::max))
 }
+
+/// In the plane: any lines, or mostly a rounded rectangle, of an area that a body can have.
+pub fn in_plane(bytes: &mut Bytes) -> Result<Particle, ParticleError> {
+    let particle = if bytes.byte() > 200 {
+        let count = bytes.byte() % MOST_PLANES;
+        let lines: Vec<[f64; 3]> = (0..count).map(|_| bytes.triple()).collect();
+        let (r, k, shadow) = (bytes.number(), bytes.number(), bytes.number());
+        Particle::in_plane(&lines, r, k, shadow)?
+    } else {
+        let (x, y) = (bytes.small(), bytes.small());
+        let r = bytes.small() * x.min(y);
+        let k = match bytes.byte() {
+            0..=80 => 0.0,
+            81..=100 => 1.0,
+            _ => bytes.small(),
+        };
+        Particle::polygon(&[[-x, -y], [x, -y], [x, y], [-x, y]], r, k)?
+    };
+    let mass = particle.mass_properties(1e-2).expect("a tolerance in range");
+    let circle = std::f64::consts::PI * particle.bounding_radius().powi(2);
+    assert!(mass.error >= 0.0, "{mass:?}");
+    // Where the error is as large as the area nothing is said of it.
+    let is_told = mass.error < 1.0;
+    assert!(!is_told || mass.volume > 0.0 && mass.volume <= circle * (1.0 + mass.error), "{mass:?}, {circle}");
+    Ok(particle)
+}

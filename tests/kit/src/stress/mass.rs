@@ -6,7 +6,7 @@ use crate::stress::cases::stream;
 use crate::stress::shapes::{Hull, Recipe, Sphericity, particle};
 use indicatif::ProgressBar;
 use nalgebra::{Matrix2, Matrix3, Rotation3, SMatrix, SVector, Vector2, Vector3};
-use potential_particles::{Particle, Plane, planar};
+use potential_particles::{Particle, Plane, SurfaceMesh};
 use serde::Serialize;
 use std::f64::consts::PI;
 use std::sync::Mutex;
@@ -164,9 +164,11 @@ fn of_space(particle: &Particle, tolerance: f64) -> Moments<3> {
     Moments { volume: found.volume, centroid: found.centroid, second, error: found.error }
 }
 
-fn of_plane(particle: &planar::Particle, tolerance: f64) -> Moments<2> {
-    let found = particle.area_properties(tolerance).unwrap();
-    Moments { volume: found.area, centroid: found.centroid, second: found.second_moment, error: found.error }
+fn of_plane(particle: &Particle, tolerance: f64) -> Moments<2> {
+    let found = particle.mass_properties(tolerance).unwrap();
+    let inertia = found.inertia;
+    let second = Matrix2::new(inertia.m22, -inertia.m12, -inertia.m12, inertia.m11);
+    Moments { volume: found.volume, centroid: found.centroid.xy(), second, error: found.error }
 }
 
 fn compared<const D: usize>(
@@ -349,10 +351,10 @@ fn plane_closed(seed: u64, index: u64, random: &mut Random) -> Tally {
     for axis in 0..2 {
         for sign in [1.0, -1.0] {
             let normal = turn * Vector2::ith(axis, sign);
-            lines.push(planar::Line { normal, offset: half[axis] - r + normal.dot(&centre) });
+            lines.push([normal.x, normal.y, half[axis] - r + normal.dot(&centre)]);
         }
     }
-    let Ok(made) = planar::Particle::new(&lines, r, 0.0, 1.0) else { return Tally::default() };
+    let Ok(made) = Particle::in_plane(&lines, r, 0.0, 1.0) else { return Tally::default() };
     let (area, second) = steiner::<2>(half.map(|h| h - r), r);
     let second = turn * Matrix2::from_diagonal(&second) * turn.transpose() + area * centre * centre.transpose();
     let reference = Moments { volume: area, centroid: centre, second, error: of_turn(&half) };
@@ -369,32 +371,33 @@ fn plane_any(seed: u64, index: u64, random: &mut Random) -> Tally {
             let angle = 2.0 * PI * random.uniform();
             let normal = Vector2::new(angle.cos(), angle.sin());
             let offset = normal.component_mul(&half).norm() * (0.7 + 0.3 * random.uniform());
-            lines.push(planar::Line { normal, offset });
+            lines.push((normal, offset));
         }
         // Nearly given twice.
         if random.uniform() < 0.3 {
-            let planar::Line { normal, offset } = lines[0];
+            let (normal, offset) = lines[0];
             let tilt = random.power(-16.0, -1.0) * Vector2::new(random.normal(), random.normal());
-            lines.push(planar::Line { normal: normal + tilt, offset: offset * (1.0 - random.power(-16.0, -2.0)) });
+            lines.push((normal + tilt, offset * (1.0 - random.power(-16.0, -2.0))));
         }
-        let nearest = lines.iter().map(|line| line.offset).fold(f64::INFINITY, f64::min);
+        let nearest = lines.iter().map(|line| line.1).fold(f64::INFINITY, f64::min);
         let r = nearest * random.power(-9.0, -0.1);
         // A centre far from the centroid.
         if random.uniform() < 0.4 {
             let angle = 2.0 * PI * random.uniform();
             let way = Vector2::new(angle.cos(), angle.sin());
-            let most = lines.iter().map(|line| line.normal.dot(&way) / line.offset).fold(0.0, f64::max);
+            let most = lines.iter().map(|line| line.0.dot(&way) / line.1).fold(0.0, f64::max);
             let way = (1.0 - random.power(-6.0, -0.1)) / most.max(0.1) * way;
-            lines.iter_mut().for_each(|line| line.offset -= line.normal.dot(&way));
+            lines.iter_mut().for_each(|line| line.1 -= line.0.dot(&way));
         }
         if random.uniform() < 0.3 {
             for line in &mut lines {
                 let factor = random.power(-2.0, 2.0);
-                *line = planar::Line { normal: factor * line.normal, offset: factor * line.offset };
+                *line = (factor * line.0, factor * line.1);
             }
         }
         let k = [0.0, 0.0, random.power(-13.0, 0.0)][random.whole(0, 3)];
-        if let Ok(particle) = planar::Particle::new(&lines, r, k, random.power(-0.5, 0.5)) {
+        let rows: Vec<[f64; 3]> = lines.iter().map(|(normal, offset)| [normal.x, normal.y, *offset]).collect();
+        if let Ok(particle) = Particle::in_plane(&rows, r, k, random.power(-0.5, 0.5)) {
             break particle;
         }
     };
@@ -403,9 +406,10 @@ fn plane_any(seed: u64, index: u64, random: &mut Random) -> Tally {
 }
 
 /// By the polygon of an outline, whose sides are nowhere further from the boundary than its tolerance.
-fn of_outline(particle: &planar::Particle) -> Moments<2> {
+fn of_outline(particle: &Particle) -> Moments<2> {
+    let mesh = SurfaceMesh::of(particle, 1e-9).unwrap();
     let tolerance = 1e-9 * particle.bounding_radius();
-    let points = particle.outline(tolerance).unwrap();
+    let points: Vec<Vector2<f64>> = mesh.vertices.iter().map(|vertex| vertex.xy()).collect();
     let (mut area, mut first, mut second) = (0.0, Vector2::zeros(), Matrix2::zeros());
     let sides = || points.iter().zip(points.iter().cycle().skip(1));
     for (from, to) in sides() {
