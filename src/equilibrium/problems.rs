@@ -27,21 +27,21 @@ const STRONGER: i32 = 20;
 /// An invalid scene; `Undecided` or `NotConverged`, which does not mean that it falls.
 pub fn stands(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
     let assembly = Assembly::new(scene)?;
-    let associated = bound::stands(&assembly);
     if flow == Flow::Associated {
-        return associated.map(|found| match found.stands {
-            true => Equilibrium { mechanism: Vec::new(), ..found },
-            false => found,
-        });
+        let mut found = bound::stands(&assembly)?;
+        if found.stands {
+            found.mechanism.clear();
+        }
+        return Ok(found);
     }
     let mut drift = Drift::new(&assembly)?;
-    let found = match from_nothing(&mut drift, Demand::GIVEN)? {
-        Begin::Rest(state) => standing(&drift, &state),
-        Begin::Falls(motion) => Equilibrium::falling(&assembly, &motion, drift.stiffness.solves),
-    };
-    // Where the program has no answer, forces that were found are one.
-    let may_stand = associated.map_or(true, |found| found.stands) || found.stands;
-    Ok(Equilibrium { may_stand, ..found })
+    match from_nothing(&mut drift, Demand::GIVEN)? {
+        Begin::Rest(state) => Ok(standing(&drift, &state)),
+        Begin::Falls(motion) => {
+            let may_stand = bound::stands(&assembly).map_or(true, |found| found.stands);
+            Ok(Equilibrium { may_stand, ..Equilibrium::falling(&assembly, &motion, drift.stiffness.solves) })
+        }
+    }
 }
 
 /// The largest factor λ for which dead + λ live loads can be carried, with the forces and the mechanism there. The dead
@@ -55,19 +55,22 @@ pub fn load_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, Equilibrium
         return Err(EquilibriumError::NoLiveLoad);
     }
     // Where no forces bear the dead loads alone there is no load to begin with.
-    let associated = match bound::stands(&assembly) {
+    let associated = || match bound::stands(&assembly) {
         Ok(found) if !found.stands => Ok(found),
         _ => bound::load(&assembly),
     };
     if flow == Flow::Associated {
-        return associated;
+        return associated();
     }
     let mut drift = Drift::new(&assembly)?;
-    let start = match from_nothing(&mut drift, Demand::GIVEN)? {
-        Begin::Rest(state) => state,
-        Begin::Falls(motion) => return fallen(&drift, &motion, associated),
-    };
-    at_limit(&mut drift, start, Unknown::Load, associated, |scaled| assembly.live_factor(scaled))
+    match from_nothing(&mut drift, Demand::GIVEN)? {
+        // Its forces are some that bear the dead loads.
+        Begin::Rest(start) => {
+            let bound = bound::load(&assembly);
+            at_limit(&mut drift, start, Unknown::Load, bound, |scaled| assembly.live_factor(scaled))
+        }
+        Begin::Falls(motion) => fallen(&drift, &motion, associated()),
+    }
 }
 
 /// The factor of safety F: tan φ and c over F are the least with which the scene stands under its dead loads; with the
