@@ -4,7 +4,8 @@ use super::answer::{Demand, Equilibrium};
 use super::assembly::Assembly;
 use super::bound;
 use super::error::EquilibriumError;
-use super::path::{DRIFT_DRAG, Limit, OF_DRIFT, limit};
+use super::numbers::{DRIFT_DRAG, OF_DRIFT, STRONGER};
+use super::path::{Limit, limit};
 use super::rest::{Drift, End, State, Unknown};
 use super::scene::Scene;
 
@@ -16,9 +17,6 @@ pub enum Flow {
     /// Not at all, as Coulomb's friction does, with elastic joints: the state that loads lead to from nothing.
     NonDilatant,
 }
-
-/// Strengths above the given one at which a scene that does not stand is tried, each twice the last.
-const STRONGER: i32 = 20;
 
 /// Whether the scene comes to rest under its dead loads, from nothing; with the forces, or the motion. Associated:
 /// whether any forces hold it; with those of the least norm, or a motion that proves that there are none.
@@ -126,7 +124,8 @@ fn from_nothing(drift: &mut Drift, at: Demand) -> Result<Begin, EquilibriumError
 }
 
 fn standing(drift: &Drift, state: &State) -> Equilibrium {
-    Equilibrium::standing(drift.assembly, &drift.forces(state), state.at, drift.stiffness.solves)
+    let forces: Vec<_> = drift.forces(&state.v, state.at).collect();
+    Equilibrium::standing(drift.assembly, &forces, state.at, drift.stiffness.solves)
 }
 
 /// The answer of a scene that stands with no factor, with what is known of its associated one.
