@@ -5,7 +5,7 @@ use super::scene::Velocity;
 use nalgebra::Vector3;
 
 /// Forces in equilibrium, and the motion at the limit.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct Equilibrium {
     /// Whether the scene comes to rest under its dead loads; of a factor: whether there is one, however small.
@@ -62,33 +62,19 @@ impl Equilibrium {
         Self {
             stands: true,
             may_stand: true,
-            factor: 0.0,
-            bound: 0.0,
             forces: assembly.forces(forces),
-            mechanism: Vec::new(),
             unbalanced: left.chunks(6).map(largest).fold(0.0, f64::max),
             excess: assembly.each_point().zip(forces).map(beyond).fold(0.0, f64::max),
             largest: contacts.iter().map(|of| of.normal.hypot(of.shear)).fold(0.0, f64::max) / assembly.unit,
             contacts,
             solves,
+            ..Self::default()
         }
     }
 
     /// The motion of a scene that nothing was found to hold.
     pub(super) fn falling(assembly: &Assembly, velocities: &[f64], solves: u32) -> Self {
-        Self {
-            stands: false,
-            may_stand: false,
-            factor: 0.0,
-            bound: 0.0,
-            forces: Vec::new(),
-            contacts: Vec::new(),
-            mechanism: assembly.velocities(velocities),
-            unbalanced: 0.0,
-            excess: 0.0,
-            largest: 0.0,
-            solves,
-        }
+        Self { mechanism: assembly.velocities(velocities), solves, ..Self::default() }
     }
 }
 

@@ -5,7 +5,7 @@ use super::error::EquilibriumError;
 use super::law::Strength;
 use super::points::points_of;
 use super::scene::{Contact, Load, Scene, Velocity};
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::{Matrix3, Matrix6x3, Vector3};
 use std::ops::Range;
 
 /// A scene in units of its own.
@@ -65,14 +65,23 @@ impl Joint {
         self.ends.into_iter().zip([(0, -1.0), (1, 1.0)]).filter_map(move |(body, of)| body.map(end(of)))
     }
 
+    /// Force and torque on the body at an end of a unit force at a point along each axis of the frame.
+    pub fn moves(&self, point: &Point, end: usize) -> Matrix6x3<f64> {
+        let along = if end == 0 { -self.frame } else { self.frame };
+        let mut found = Matrix6x3::zeros();
+        for axis in 0..3 {
+            found.fixed_view_mut::<3, 1>(0, axis).copy_from(&along.column(axis));
+            found.fixed_view_mut::<3, 1>(3, axis).copy_from(&point.arms[end].cross(&along.column(axis)));
+        }
+        found
+    }
+
     /// Coefficients, in the scaled velocities, of the velocity of the second body relative to the first along an axis
     /// of the frame.
     pub fn relative(&self, point: &Point, axis: usize) -> impl Iterator<Item = (usize, f64)> {
-        let (along, arms) = (self.frame.column(axis).into_owned(), point.arms);
-        self.bodies().flat_map(move |(body, sign, end)| {
-            let turn = arms[end].cross(&along);
-            let six = [along.x, along.y, along.z, turn.x, turn.y, turn.z];
-            (0..6).map(move |i| (6 * body + i, sign * six[i]))
+        self.bodies().flat_map(move |(body, _, end)| {
+            let moves = self.moves(point, end);
+            (0..6).map(move |i| (6 * body + i, moves[(i, axis)]))
         })
     }
 

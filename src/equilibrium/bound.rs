@@ -4,29 +4,15 @@
 use super::answer::{Demand, Equilibrium};
 use super::assembly::{Assembly, Point};
 use super::error::EquilibriumError;
+use super::numbers::{BALANCED, EXCESS, HALVING, MOST_PROGRAMS, REDUCED, STRIDE, WEAKER};
 use super::program::{Cone, Goal, Outcome, Solved, solve};
 use nalgebra::Vector3;
-
-/// A strength factor has settled if it changes by no more than this part.
-const SETTLED: f64 = 1e-7;
-/// The largest friction beyond its strength that a program may leave, over the mean load of a body; and the smallest
-/// part of the strength by which a bracket is halved.
-const EXCESS: f64 = 1e-5;
-/// Largest force that may stay unbalanced on a body, over the largest force.
-const BALANCED: f64 = 1e-6;
-/// From one strength to the next where a bracket has one end alone.
-const STRIDE: f64 = 5.0;
-/// A factor is proved if the scene falls with strength that is weaker by this part.
-const WEAKER: f64 = 1e-4;
-/// Programs after which each halves the bracket, and most programs.
-const HALVING: u32 = 30;
-const MOST: u32 = 100;
 
 /// With this part of the strength: whether any forces hold all bodies, those of the least norm or a motion.
 ///
 /// # Errors
 /// `NotConverged`.
-pub(super) fn rest(assembly: &Assembly, part: f64) -> Result<Outcome, EquilibriumError> {
+fn rest(assembly: &Assembly, part: f64) -> Result<Outcome, EquilibriumError> {
     solve(assembly, &cones(assembly, part), Goal::Rest)
 }
 
@@ -44,12 +30,7 @@ fn cones(assembly: &Assembly, part: f64) -> Vec<Cone> {
 /// # Errors
 /// `NotConverged`.
 pub(super) fn stands(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
-    match rest(assembly, 1.0)? {
-        Outcome::Solved(solved) => answer(assembly, &solved, Demand::GIVEN, 0.0, 1),
-        Outcome::Falls(velocities) => falls(assembly, &velocities, 1.0, 1),
-        // Without a factor there is no limit to miss.
-        Outcome::Unlimited => Err(EquilibriumError::NotConverged { status: "PrimalInfeasible".into() }),
-    }
+    one(assembly, Goal::Rest)
 }
 
 /// The largest factor on the live loads.
@@ -57,12 +38,21 @@ pub(super) fn stands(assembly: &Assembly) -> Result<Equilibrium, EquilibriumErro
 /// # Errors
 /// `NotConverged`, `Unlimited`.
 pub(super) fn load(assembly: &Assembly) -> Result<Equilibrium, EquilibriumError> {
-    match solve(assembly, &cones(assembly, 1.0), Goal::Load)? {
+    one(assembly, Goal::Load)
+}
+
+/// The answer of one program with the given strength.
+fn one(assembly: &Assembly, goal: Goal) -> Result<Equilibrium, EquilibriumError> {
+    match solve(assembly, &cones(assembly, 1.0), goal)? {
         Outcome::Solved(solved) => {
             let at = Demand { live: solved.factor, strength: 1.0 };
             answer(assembly, &solved, at, assembly.live_factor(solved.factor), 1)
         }
         Outcome::Falls(velocities) => falls(assembly, &velocities, 1.0, 1),
+        // Without a factor there is no limit to miss.
+        Outcome::Unlimited if goal == Goal::Rest => {
+            Err(EquilibriumError::NotConverged { status: "PrimalInfeasible".into() })
+        }
         Outcome::Unlimited => Err(EquilibriumError::Unlimited),
     }
 }
@@ -85,13 +75,13 @@ pub(super) fn strength(assembly: &Assembly) -> Result<Equilibrium, EquilibriumEr
         };
         let cones: Vec<Cone> = assembly.each_point().zip(&forces).map(cone).collect();
         match solve(assembly, &cones, Goal::Strength) {
-            Ok(Outcome::Solved(solved)) if solved.factor > SETTLED => {
+            Ok(Outcome::Solved(solved)) if solved.factor > REDUCED => {
                 if kappa > 0.0 {
                     bracket[usize::from(solved.factor <= kappa)] = kappa;
                 }
                 let at = Demand { live: 0.0, strength: solved.factor };
                 let found = Equilibrium::standing(assembly, &solved.forces, at, programs);
-                if (solved.factor - kappa).abs() <= SETTLED * solved.factor && found.excess <= EXCESS {
+                if (solved.factor - kappa).abs() <= REDUCED * solved.factor && found.excess <= EXCESS {
                     // Beside large forces of the last program φ says little.
                     let less = solved.factor * (1.0 - WEAKER);
                     if held(assembly, less, programs).is_some() {
@@ -129,7 +119,7 @@ fn halved(assembly: &Assembly, mut bracket: [f64; 2], mut programs: u32) -> Resu
         let stands = matches!(rest(assembly, kappa), Ok(Outcome::Solved(_)));
         bracket[usize::from(stands)] = kappa;
         programs += 1;
-        if programs > MOST {
+        if programs > MOST_PROGRAMS {
             return Err(EquilibriumError::NotFound { stands: 1.0 / bracket[1], bound: 1.0 / bracket[0] });
         }
     }
@@ -138,7 +128,7 @@ fn halved(assembly: &Assembly, mut bracket: [f64; 2], mut programs: u32) -> Resu
 
 /// The state with this part κ of the strength, below which forces that clamp blocks grow without bound.
 fn clamped(assembly: &Assembly, kappa: f64, programs: u32) -> Result<Equilibrium, EquilibriumError> {
-    if kappa <= SETTLED {
+    if kappa <= REDUCED {
         return Err(EquilibriumError::StandsWithoutStrength);
     }
     // A little more strength, until the least forces are small enough to be found.
@@ -158,7 +148,7 @@ fn held(assembly: &Assembly, kappa: f64, programs: u32) -> Option<Equilibrium> {
 
 /// A κ inside the bracket; `None` once its ends agree.
 fn inside([low, high]: [f64; 2]) -> Option<f64> {
-    let is_closed = high - low <= EXCESS * high || high <= SETTLED;
+    let is_closed = high - low <= EXCESS * high || high <= REDUCED;
     let between = || match (low > 0.0, high.is_finite()) {
         (true, true) => (low * high).sqrt(),
         (true, false) => low * STRIDE,

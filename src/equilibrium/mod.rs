@@ -31,6 +31,7 @@
 //! | file | holds |
 //! |---|---|
 //! | `error` | why a scene has no answer |
+//! | `numbers` | the numbers that the solution is tuned by |
 //! | `scene` | bodies, contacts, loads |
 //! | `rock_mass` | the scene of a rock mass |
 //! | `points` | where the forces of a contact act |
@@ -49,6 +50,7 @@ mod assembly;
 mod bound;
 mod error;
 mod law;
+mod numbers;
 mod path;
 mod points;
 mod problems;

@@ -6,35 +6,11 @@
 
 use super::answer::Demand;
 use super::error::EquilibriumError;
-use super::rest::{Drift, End, State, Unknown, dot};
-
-/// The first step, as a part of the displacements there are.
-const FIRST: f64 = 0.05;
-/// The first drag of a step, little since the law is linear between two events, and of a drift.
-const STEP_DRAG: f64 = 1e-8;
-pub(super) const DRIFT_DRAG: f64 = 0.1;
-/// Most factorisations of a step, of a drift, and of a path.
-const OF_STEP: u32 = 60;
-pub(super) const OF_DRIFT: u32 = 400;
-const OF_PATH: u32 = 40_000;
-/// Steps below this part of the displacements lead nowhere: loads are raised instead.
-const SHORT: f64 = 1e-5;
-/// Above this factor the live loads, in units of the dead ones, count as without limit.
-const MOST: f64 = 1e9;
-/// Below this part the strength counts as none.
-const NONE: f64 = 1e-9;
-/// By how much loads are raised, as parts of them: under very little more than they can bear bodies creep.
-const RAISED: [f64; 3] = [0.01, 0.04, 0.16];
-const RAISED_DRAG: f64 = 1e-2;
-/// Displacements after which bodies then go along a mechanism, over those before.
-const ASTRAY: f64 = 30.0;
-/// Where p falls back by this part, a load that grows has no state to go on with.
-const BACK: f64 = 2e-3;
-/// Towards the limit p changes with the inverse of the displacements. It is extrapolated whenever these have grown so
-/// much, and found when p is as near to its limit as NEAR, and two extrapolations agree to SETTLED, as parts of it.
-const GROWTH: f64 = 4.0;
-const NEAR: f64 = 1e-3;
-const SETTLED: f64 = 1e-5;
+use super::numbers::{
+    ASTRAY, BACK, FIRST_STEP, GROWTH, LEAST_STEP, NEAR, OF_DRIFT, OF_PATH, OF_STEP, RAISED, RAISED_DRAG, SETTLED,
+    STEP_DRAG, WITHOUT_LIMIT,
+};
+use super::rest::{Drift, End, State, Unknown};
 
 /// The end of a path.
 pub(super) struct Limit {
@@ -72,8 +48,8 @@ pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result
         let before = drift.stiffness.solves;
         if drift.settle(&mut next, unknown, &across, STEP_DRAG, (OF_STEP, f64::INFINITY)) != End::Rest {
             way.length *= 0.25;
-            let step = way.length * dot(&way.along, &across).sqrt();
-            if !(step >= SHORT * size(drift, &way.state) && step.is_finite()) {
+            let step = way.length * drift.length(&way.along, &way.state);
+            if !(step >= LEAST_STEP * size(drift, &way.state) && step.is_finite()) {
                 way = raised(drift, best, unknown)?;
                 best = way.state.clone();
             }
@@ -83,7 +59,7 @@ pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result
         way.along = next.v.iter().zip(&way.state.v).map(|(next, v)| (next - v) / way.length).collect();
         way.state = next;
         let parameter = unknown.of(way.state.at);
-        if parameter > MOST || unknown == Unknown::Strength && parameter <= NONE {
+        if parameter > WITHOUT_LIMIT || unknown == Unknown::Strength && parameter <= 1.0 / WITHOUT_LIMIT {
             return Err(unlimited(unknown));
         }
         let gained = unknown.sense() * (parameter - unknown.of(best.at));
@@ -114,7 +90,7 @@ pub(super) fn limit(drift: &mut Drift, state: State, unknown: Unknown) -> Result
 
 /// Displacements over those of elastic bodies.
 fn size(drift: &Drift, state: &State) -> f64 {
-    dot(&state.v, &drift.metric(&state.v, state)).sqrt()
+    drift.length(&state.v, state)
 }
 
 /// From a state along its tangent.
@@ -122,15 +98,14 @@ fn begin(drift: &mut Drift, state: State, unknown: Unknown) -> Result<Way, Equil
     let by = unknown.sense();
     let mut along = drift.tangent(&state, unknown).ok_or_else(|| lost(&state, unknown))?;
     along.iter_mut().for_each(|part| *part *= by);
-    let answers = dot(&along, &drift.metric(&along, &state)).sqrt();
-    let length = FIRST * size(drift, &state).max(1.0) / answers;
+    let length = FIRST_STEP * size(drift, &state).max(1.0) / drift.length(&along, &state);
     if length.is_finite() {
         return Ok(Way { state, along, by, length });
     }
     // No displacement changes with the parameter: no live load moves anything, or no point slips before strength has
     // fallen to what is used.
     let used = if unknown == Unknown::Strength { drift.used(&state) } else { 0.0 };
-    if !(used > NONE) {
+    if !(used > 1.0 / WITHOUT_LIMIT) {
         return Err(unlimited(unknown));
     }
     raised(drift, State { at: Demand { strength: used, ..state.at }, ..state }, unknown)

@@ -4,7 +4,8 @@ use super::answer::{Demand, Equilibrium};
 use super::assembly::Assembly;
 use super::bound;
 use super::error::EquilibriumError;
-use super::path::{DRIFT_DRAG, Limit, OF_DRIFT, limit};
+use super::numbers::{DRIFT_DRAG, OF_DRIFT, STRONGER};
+use super::path::{Limit, limit};
 use super::rest::{Drift, End, State, Unknown};
 use super::scene::Scene;
 
@@ -17,9 +18,6 @@ pub enum Flow {
     NonDilatant,
 }
 
-/// Strengths above the given one at which a scene that does not stand is tried, each twice the last.
-const STRONGER: i32 = 20;
-
 /// Whether the scene comes to rest under its dead loads, from nothing; with the forces, or the motion. Associated:
 /// whether any forces hold it; with those of the least norm, or a motion that proves that there are none.
 ///
@@ -27,21 +25,21 @@ const STRONGER: i32 = 20;
 /// An invalid scene; `Undecided` or `NotConverged`, which does not mean that it falls.
 pub fn stands(scene: &Scene, flow: Flow) -> Result<Equilibrium, EquilibriumError> {
     let assembly = Assembly::new(scene)?;
-    let associated = bound::stands(&assembly);
     if flow == Flow::Associated {
-        return associated.map(|found| match found.stands {
-            true => Equilibrium { mechanism: Vec::new(), ..found },
-            false => found,
-        });
+        let mut found = bound::stands(&assembly)?;
+        if found.stands {
+            found.mechanism.clear();
+        }
+        return Ok(found);
     }
     let mut drift = Drift::new(&assembly)?;
-    let found = match from_nothing(&mut drift, Demand::GIVEN)? {
-        Begin::Rest(state) => standing(&drift, &state),
-        Begin::Falls(motion) => Equilibrium::falling(&assembly, &motion, drift.stiffness.solves),
-    };
-    // Where the program has no answer, forces that were found are one.
-    let may_stand = associated.map_or(true, |found| found.stands) || found.stands;
-    Ok(Equilibrium { may_stand, ..found })
+    match from_nothing(&mut drift, Demand::GIVEN)? {
+        Begin::Rest(state) => Ok(standing(&drift, &state)),
+        Begin::Falls(motion) => {
+            let may_stand = bound::stands(&assembly).map_or(true, |found| found.stands);
+            Ok(Equilibrium { may_stand, ..Equilibrium::falling(&assembly, &motion, drift.stiffness.solves) })
+        }
+    }
 }
 
 /// The largest factor λ for which dead + λ live loads can be carried, with the forces and the mechanism there. The dead
@@ -55,19 +53,22 @@ pub fn load_factor(scene: &Scene, flow: Flow) -> Result<Equilibrium, Equilibrium
         return Err(EquilibriumError::NoLiveLoad);
     }
     // Where no forces bear the dead loads alone there is no load to begin with.
-    let associated = match bound::stands(&assembly) {
+    let associated = || match bound::stands(&assembly) {
         Ok(found) if !found.stands => Ok(found),
         _ => bound::load(&assembly),
     };
     if flow == Flow::Associated {
-        return associated;
+        return associated();
     }
     let mut drift = Drift::new(&assembly)?;
-    let start = match from_nothing(&mut drift, Demand::GIVEN)? {
-        Begin::Rest(state) => state,
-        Begin::Falls(motion) => return fallen(&drift, &motion, associated),
-    };
-    at_limit(&mut drift, start, Unknown::Load, associated, |scaled| assembly.live_factor(scaled))
+    match from_nothing(&mut drift, Demand::GIVEN)? {
+        // Its forces are some that bear the dead loads.
+        Begin::Rest(start) => {
+            let bound = bound::load(&assembly);
+            at_limit(&mut drift, start, Unknown::Load, bound, |scaled| assembly.live_factor(scaled))
+        }
+        Begin::Falls(motion) => fallen(&drift, &motion, associated()),
+    }
 }
 
 /// The factor of safety F: tan φ and c over F are the least with which the scene stands under its dead loads; with the
@@ -123,7 +124,8 @@ fn from_nothing(drift: &mut Drift, at: Demand) -> Result<Begin, EquilibriumError
 }
 
 fn standing(drift: &Drift, state: &State) -> Equilibrium {
-    Equilibrium::standing(drift.assembly, &drift.forces(state), state.at, drift.stiffness.solves)
+    let forces: Vec<_> = drift.forces(&state.v, state.at).collect();
+    Equilibrium::standing(drift.assembly, &forces, state.at, drift.stiffness.solves)
 }
 
 /// The answer of a scene that stands with no factor, with what is known of its associated one.

@@ -18,26 +18,10 @@
 
 use super::assembly::{Assembly, Joint, Point};
 use super::error::EquilibriumError;
+use super::numbers::{ATTEMPTS, MANY, NO_STRENGTH, REDUCED, STALLED};
 use clarabel::algebra::CscMatrix;
 use clarabel::solver::{DefaultInfo, DefaultSettings, DefaultSolver, IPSolver, SolverStatus, SupportedConeT};
 use nalgebra::Vector3;
-
-/// Accuracy of φ that a program has at best.
-pub(super) const BEST: f64 = 1e-10;
-/// Accuracy that clarabel is asked for, relative to the mean load of a body, and its regularisation: each fails on
-/// different scenes, the most accurate comes first. Above a regularisation of 1e-9 the accuracy of 1e-10 is out of
-/// reach for walls of 1,000 blocks, and more than half of the iterations look for it in vain.
-const ATTEMPTS: [(f64, f64); 4] = [(BEST, 1e-10), (BEST, 1e-8), (1e-9, 1e-9), (1e-8, 1e-7)];
-/// Accuracy that is taken where it gets no further.
-const REDUCED: f64 = 1e-7;
-/// From so many free bodies on, the first attempt is left out: it has no answer for a wall of 3,164 blocks, and solves
-/// one of 976 (measured).
-const MANY: usize = 2000;
-/// Iterations without a halving of the residuals after which a program of so many bodies ends: the wall takes 55 in the
-/// place of 100. Smaller scenes go on, as an arch at its limit needs all accuracy.
-const STALLED: u32 = 8;
-/// A strength below this part of the unit of force is none: no cone is that thin beside the tolerance.
-const NO_STRENGTH: f64 = 1e-12;
 
 /// Strength of a point: |t| ≤ base + φ growth + slope n, n ≥ −tension, units of force.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -8,26 +8,11 @@
 use super::answer::Demand;
 use super::assembly::{Assembly, Joint, Point, largest};
 use super::error::EquilibriumError;
+use super::numbers::{
+    AT_REST, CLAMPED, GOING, KEEPS, LEAST_DRAG, MISSED, MOST_DRAG, SHORTER, SHORTEST, SOFTEST, STEP_DRAG,
+};
 use super::stiffness::{Stiffness, weights};
 use nalgebra::Vector3;
-
-/// The largest force that may be left on a body at rest, over the sum of the sizes of all forces on it.
-pub(super) const AT_REST: f64 = 1e-8;
-/// Forces beyond this many times all loads together clamp blocks: what is left is then judged by the loads.
-const CLAMPED: f64 = 10.0;
-/// Bodies go without end if so many steps in a row, of a drag that would not hold the softest joints, leave R at least
-/// KEEPS of its size: elastic bodies would use it up.
-const GOING: u32 = 3;
-const SOFTEST: f64 = 1e-11;
-const KEEPS: f64 = 0.9;
-/// Share of R by which a step may miss it.
-const MISSED: f64 = 0.6;
-/// Least drag: with less the rounding of the stiffness would hold a mechanism.
-const LEAST_DRAG: f64 = 1e-13;
-/// With more drag even a light stone on a heavy one does not move.
-const MOST_DRAG: f64 = 1e12;
-/// Drag with which a tangent exists where bodies are loose.
-const TANGENT_DRAG: f64 = 1e-8;
 
 /// What is solved for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -91,25 +76,23 @@ impl<'a> Drift<'a> {
     }
 
     /// Forces at the points.
-    pub fn forces(&self, State { v, at }: &State) -> Vec<Vector3<f64>> {
-        let force = |(joint, point): (&Joint, &Point)| point.strength.force(&joint.slip(point, v), at.strength);
-        self.assembly.each_point().map(force).collect()
+    pub fn forces(&self, v: &[f64], at: Demand) -> impl Iterator<Item = Vector3<f64>> {
+        let force = move |(joint, point): (&Joint, &Point)| point.strength.force(&joint.slip(point, v), at.strength);
+        self.assembly.each_point().map(force)
     }
 
     /// The largest part of its strength that a point uses.
     pub fn used(&self, state: &State) -> f64 {
-        let forces = self.forces(state);
-        let used = |((_, point), f): ((_, &Point), &Vector3<f64>)| {
+        let used = |((_, point), f): ((_, &Point), Vector3<f64>)| {
             let along = f.y.hypot(f.z);
             if along > 0.0 { along / point.strength.most(f.x, 1.0) } else { 0.0 }
         };
-        self.assembly.each_point().zip(&forces).map(used).fold(0.0, f64::max)
+        self.assembly.each_point().zip(self.forces(&state.v, state.at)).map(used).fold(0.0, f64::max)
     }
 
     /// R, and the sum of the sizes of all forces on each body; a body without any has the rounding of the mean load.
     fn left(&self, v: &[f64], at: Demand) -> (Vec<f64>, Vec<f64>) {
-        let force = |(joint, point): (&Joint, &Point)| point.strength.force(&joint.slip(point, v), at.strength);
-        let (left, mut sizes) = self.assembly.left(self.assembly.each_point().map(force), at.live);
+        let (left, mut sizes) = self.assembly.left(self.forces(v, at), at.live);
         let total: f64 = self.assembly.loads(at.live).chunks(6).map(largest).sum();
         sizes.iter_mut().for_each(|size| *size = size.clamp(f64::EPSILON, CLAMPED * total.max(1.0)));
         (left, sizes)
@@ -126,6 +109,11 @@ impl<'a> Drift<'a> {
         let sizes = self.left(&at.v, at.at).1;
         let scaled = |(i, (v, weight)): (usize, (&f64, &f64))| v * (weight / sizes[i / 6]).powi(2);
         v.iter().zip(&self.weights).enumerate().map(scaled).collect()
+    }
+
+    /// The length of displacements by this metric.
+    pub fn length(&self, v: &[f64], at: &State) -> f64 {
+        dot(v, &self.metric(v, at)).sqrt()
     }
 
     /// How far the farthest body is displaced, over its displacement if it were elastic and alone.
@@ -184,8 +172,8 @@ impl<'a> Drift<'a> {
                     (*state, left, sizes) = (State { v, at }, next, next_sizes);
                     break Some(missed);
                 }
-                part *= 0.4;
-                if part < 0.05 {
+                part *= SHORTER;
+                if part < SHORTEST {
                     break None;
                 }
             };
@@ -217,7 +205,7 @@ impl<'a> Drift<'a> {
         let left = self.left(&state.v, state.at).0;
         let response = self.response(state, unknown, &left);
         let (assembly, weights) = (self.assembly, &self.weights);
-        let found = self.stiffness.factorise(assembly, &state.v, state.at, TANGENT_DRAG, weights);
+        let found = self.stiffness.factorise(assembly, &state.v, state.at, STEP_DRAG, weights);
         found.then(|| self.stiffness.solve(&response))
     }
 }

@@ -1,6 +1,7 @@
 //! What is asked about: bodies, their contacts, their loads.
 
 use super::error::EquilibriumError;
+use super::numbers::{A_POINT, MOST_FRICTION, MOST_LEAN, STRAIGHT};
 use nalgebra::{Matrix3, Vector3};
 
 /// A force and its torque about the centre of a body.
@@ -148,20 +149,6 @@ fn middle(corners: &[Vector3<f64>]) -> Vector3<f64> {
     corners.iter().sum::<Vector3<f64>>() / corners.len().max(1) as f64
 }
 
-/// Corners whose triangle with their neighbours has no more than this part of the square of the extent lie on an edge:
-/// they are rounding.
-const STRAIGHT: f64 = 1e-9;
-
-/// Where corners lie farther from the plane across the normal than this share of their extent, the normal is that of
-/// another face: patches of bodies that have turned lean by some 1e-3.
-const MOST_LEAN: f64 = 0.1;
-
-/// Polygons below this part of their bodies, or of their distance from the origin, are points: the rounding of corners
-/// decides how they lean.
-const A_POINT: f64 = 1e-6;
-
-/// Coefficients of friction above are refused: their cones are half-spaces to rounding.
-const MOST_FRICTION: f64 = 1e6;
 const MOST_FRICTION_SAID: &str = "a coefficient up to 1e6: tan of the angle";
 
 /// Bodies and their contacts.

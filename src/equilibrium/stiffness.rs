@@ -1,18 +1,16 @@
 //! The stiffness of a scene at a state, and its factors: 6 × 6 blocks at the bodies and at pairs that touch.
 
 use super::answer::Demand;
-use super::assembly::{Assembly, Joint, Point};
+use super::assembly::{Assembly, Joint};
 use super::error::EquilibriumError;
+use super::numbers::LEAST_WEIGHT;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::sparse::linalg::SupernodalThreshold;
 use faer::sparse::linalg::lu::{LuRef, LuSymbolicParams, NumericLu, SymbolicLu, factorize_symbolic_lu};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat};
 use faer::{Conj, Mat, Par};
-use nalgebra::{Matrix6, Matrix6x3};
+use nalgebra::Matrix6;
 use std::collections::BTreeMap;
-
-/// The least weight of a coordinate of a body, over that of its stiffest one.
-const LEAST_WEIGHT: f64 = 1e-3;
 
 /// The matrix E K Eᵀ + ε W, and its LU factors. It is not symmetric where joints slip.
 pub(super) struct Stiffness {
@@ -81,7 +79,7 @@ impl Stiffness {
             let mut sums = [Matrix6::zeros(); 4];
             for point in &assembly.points[joint.points.clone()] {
                 let stiffness = point.strength.tangent(&joint.slip(point, v), at.strength);
-                let [first, second] = [0, 1].map(|end| moves(joint, point, end));
+                let [first, second] = [0, 1].map(|end| joint.moves(point, end));
                 for (end, of) in [first, second].into_iter().enumerate().filter(|(end, _)| joint.ends[*end].is_some()) {
                     let forces = of * stiffness;
                     sums[2 * end] += forces * first.transpose();
@@ -120,7 +118,7 @@ pub(super) fn weights(assembly: &Assembly) -> Vec<f64> {
     let mut found = vec![0.0; assembly.dead.len()];
     for (joint, point) in assembly.each_point() {
         for (body, _, end) in joint.bodies() {
-            let moves = moves(joint, point, end);
+            let moves = joint.moves(point, end);
             (0..6).for_each(|i| found[6 * body + i] += point.strength.stiffness[0] * moves.row(i).norm_squared());
         }
     }
@@ -128,18 +126,6 @@ pub(super) fn weights(assembly: &Assembly) -> Vec<f64> {
     for six in found.chunks_mut(6) {
         let least = LEAST_WEIGHT * six.iter().copied().fold(0.0, f64::max);
         six.iter_mut().for_each(|weight| *weight = weight.max(least));
-    }
-    found
-}
-
-/// Force and torque on the body at an end of a unit force at a point, in the axes of the frame.
-fn moves(joint: &Joint, point: &Point, end: usize) -> Matrix6x3<f64> {
-    let sign = if end == 0 { -1.0 } else { 1.0 };
-    let mut found = Matrix6x3::zeros();
-    for axis in 0..3 {
-        let along = sign * joint.frame.column(axis);
-        found.fixed_view_mut::<3, 1>(0, axis).copy_from(&along);
-        found.fixed_view_mut::<3, 1>(3, axis).copy_from(&point.arms[end].cross(&along));
     }
     found
 }

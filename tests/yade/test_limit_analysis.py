@@ -124,6 +124,48 @@ for question, angle, push, expected in simulated if O.numThreads == 1 else ():
                f"{question} by simulation: {found} for {expected:.4f}")
     check.equal(O.bodies[1].state.pos, place, f"{question}: the scene is as it was")
 check.raises(ValueError, lambda: potential_particles.factor_by_simulation("stands"), "no factor", "has no factor")
+check.raises(ValueError, lambda: potential_particles.factor_by_simulation("load", stiffnesses=(1, 1)), "twice",
+             "stiffnesses=[1.0, 1.0]")
+
+
+def leaning(stiffness):
+    """The load factor of a pier that leans by θ on its toe, at the θ where it is largest."""
+    turns = np.linspace(1e-4, 0.1, 10_000)
+    strip = np.sqrt(2.0 * weight / (FLAT * stiffness * turns))
+    return ((0.5 * FLAT - strip / 3.0 - 0.5 * HEIGHT * turns) / (0.5 * HEIGHT)).max()
+
+
+# Soft joints cost it a seventh, eight times as stiff ones half of that; rigid ones turn over at the corners.
+block_on(friction=0.9, normalStiffness=1e8, shearStiffness=1e8, restitution=0.1)
+weight = O.bodies[1].state.mass * 9.81
+O.dt = potential_particles.critical_time_step()
+O.run(int(0.6 / O.dt), wait=True)
+before = state_numbers()
+if O.numThreads == 1:
+    found = potential_particles.factor_by_simulation("load", push=(1, 0, 0), tolerance=0.03, progress=False,
+                                                       stiffnesses=(1, 8))
+    for stiffness, (stands, falls) in found.brackets.items():
+        expected = leaning(1e8 * stiffness)
+        check.true(0.96 * expected < stands < expected < 1.02 * falls, f"leaning: {found} for {expected:.4f}")
+    check.true(abs(found.factor - FLAT / HEIGHT) < found.uncertainty < 0.03, f"of rigid joints: {found}")
+    check.equal(state_numbers(), before, "with other stiffnesses, too, the scene is as it was")
+
+# Ctrl-C in the third run: what is known by then.
+simulated_run, answers = potential_particles.simulated._run, iter(("stands", "falls"))
+
+
+def interrupted(*_):
+    said = next(answers, None)
+    if said is None:
+        raise KeyboardInterrupt
+    return said, 0.0
+
+
+potential_particles.simulated._run = interrupted
+found = potential_particles.factor_by_simulation("load", push=(1, 0, 0), first=0.4, progress=False, stiffnesses=(1, 8))
+potential_particles.simulated._run = simulated_run
+check.true(found.stands < 0.4 < found.falls and len(found.runs) == 2 and math.isnan(found.factor), f"Ctrl-C: {found}")
+check.equal(state_numbers(), before, "Ctrl-C: the scene is as it was")
 
 # What has no answer is refused by name.
 for change, text in (
