@@ -106,7 +106,7 @@ impl Particle {
     }
 
     /// Of planes (a, b, 0, d) the cut at z = 0.
-    pub(crate) fn cut(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
+    fn cut(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
         Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?))
     }
 
