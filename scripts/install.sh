@@ -72,7 +72,8 @@ if [[ $PYTHON_DIR ]]; then
     core=${CORE:-$(scripts/core.sh)}
     rm -rf "$package"
     install -d "$package"
-    install -m 644 python/potential_particles/* "$package"
+    # With its folders, and without what Python or a build has left there.
+    (cd python/potential_particles && find . -type f ! -name '*.pyc' ! -name '_core*.so' -exec install -D -m 644 {} "$package/{}" \;)
     install -m 644 "$core" "$package/_core.abi3.so"
 fi
 echo "install: version $version, $soname in $DESTDIR$PREFIX and $libraries"

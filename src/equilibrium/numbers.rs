@@ -1,6 +1,7 @@
-//! The numbers that the solution is tuned by, all in one place. Forces are over those on a body, drag over the stiffness
-//! of all points of a body, displacements over those of elastic bodies; a part is one of the quantity itself. None is
-//! of the law. The accuracy of a factor is in AT_REST and SETTLED, that of a bound in REDUCED, EXCESS and WEAKER.
+//! The numbers that the solution is tuned by, all in one place. Forces are over those on a body, drag over the
+//! stiffness of all points of a body, displacements over those of elastic bodies; a part is one of the quantity itself.
+//! None is of the law. The accuracy of a factor is in AT_REST and SETTLED, that of a bound in REDUCED, EXCESS and
+//! WEAKER.
 
 /// States of rest: the largest force that may be left on a body, over the sum of the sizes of all forces on it.
 pub(super) const AT_REST: f64 = 1e-8;
@@ -32,8 +33,8 @@ pub(super) const OF_STEP: u32 = 60;
 pub(super) const OF_DRIFT: u32 = 400;
 pub(super) const OF_PATH: u32 = 40_000;
 
-/// The path: its first step, as a part of the displacements there are; below the least steps lead nowhere, and loads are
-/// raised instead.
+/// The path: its first step, as a part of the displacements there are; below the least steps lead nowhere, and loads
+/// are raised instead.
 pub(super) const FIRST_STEP: f64 = 0.05;
 pub(super) const LEAST_STEP: f64 = 1e-5;
 /// By how much loads are raised, as parts of them: under very little more than they can bear bodies creep.
@@ -44,17 +45,17 @@ pub(super) const ASTRAY: f64 = 30.0;
 pub(super) const BACK: f64 = 2e-3;
 /// Live loads this many times the dead ones, or strength of this part, count as without limit.
 pub(super) const WITHOUT_LIMIT: f64 = 1e9;
-/// Towards the limit the parameter changes with the inverse of the displacements. It is extrapolated whenever these have
-/// grown so much, and found when it is as near to its limit as NEAR, and two extrapolations agree to SETTLED.
+/// Towards the limit the parameter changes with the inverse of the displacements. It is extrapolated whenever these
+/// have grown so much, and found when it is as near to its limit as NEAR, and two extrapolations agree to SETTLED.
 pub(super) const GROWTH: f64 = 4.0;
 pub(super) const NEAR: f64 = 1e-3;
 pub(super) const SETTLED: f64 = 1e-5;
 /// Doubles of the strength that are tried where a scene does not stand with the given one.
 pub(super) const STRONGER: i32 = 20;
 
-/// Cone programs: accuracy that clarabel is asked for, relative to the mean load of a body, and its regularisation. Each
-/// fails on different scenes, the most accurate comes first. Above a regularisation of 1e-9 the accuracy of 1e-10 is out
-/// of reach for walls of 1,000 blocks, and more than half of the iterations look for it in vain.
+/// Cone programs: accuracy that clarabel is asked for, relative to the mean load of a body, and its regularisation.
+/// Each fails on different scenes, the most accurate comes first. Above a regularisation of 1e-9 the accuracy of 1e-10
+/// is out of reach for walls of 1,000 blocks, and more than half of the iterations look for it in vain.
 pub(super) const ATTEMPTS: [(f64, f64); 4] = [(1e-10, 1e-10), (1e-10, 1e-8), (1e-9, 1e-9), (1e-8, 1e-7)];
 /// Accuracy that is taken where it gets no further, and to which a factor of safety settles.
 pub(super) const REDUCED: f64 = 1e-7;
@@ -79,8 +80,8 @@ pub(super) const WEAKER: f64 = 1e-4;
 pub(super) const HALVING: u32 = 30;
 pub(super) const MOST_PROGRAMS: u32 = 100;
 
-/// Scenes. Corners whose triangle with their neighbours has no more than this part of the square of the extent lie on an
-/// edge: they are rounding.
+/// Scenes. Corners whose triangle with their neighbours has no more than this part of the square of the extent lie on
+/// an edge: they are rounding.
 pub(super) const STRAIGHT: f64 = 1e-9;
 /// Where corners lie farther from the plane across the normal than this part of their extent, the normal is that of
 /// another face: patches of bodies that have turned lean by some 1e-3.
