@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""A slope from its joint sets to a factor of safety: on a laptop, python3 examples/slope.py, with the wheel; in YADE,
+"""A slope from its joint sets to a factor of safety: on a laptop, python3 examples/slope.py, with the wheel and
+matplotlib; in YADE,
 yade -x -n examples/slope.py, which goes on to a run with the same friction and writes the scene for LAMMPS.
 
 Environment: FRICTION (25, degrees), SECONDS (0.5), OUTPUT (out/slope). Writes keys.png, limit.png and summary.json, in

@@ -25,7 +25,7 @@
  *   Numbers   NaN and infinity are refused with a status that says where they were, except in values that
  *             are not used (r for k = 1, R for k = 0) and in what the library fills itself (states of pairs).
  *   Units     Any consistent length unit. Rotations by quaternion w, x, y, z, local to world; in the
- *             plane by an angle in radians.
+ *             plane about z.
  *   Threads   Particles never change after creation: any number of threads may share them. A
  *             pp_pair_state or an output belongs to one call at a time. Nothing is shared between calls.
  *             Only functions that take a number of threads start any, and end them before they return.

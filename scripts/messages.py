@@ -29,8 +29,7 @@ LAYERS = [
     ("LAMMPS plugin", "lammps-glue/src", "*.[ch]pp", r"error->(?:all|one|warning|universe_all)\(|\bthrow [\w:]+\("),
     ("both plugins", "plugin-common", "*.[ch]pp", r"\bthrow [\w:]+\("),
 ]
-PYTHON = [("YADE plugin, Python", "yade-glue/python"), ("wheel, Python", "python/potential_particles"),
-          ("LAMMPS plugin, Python", "python/potential_particles/lammps")]
+PYTHON = [("YADE plugin, Python", "yade-glue/python"), ("Python", "python/potential_particles")]
 ERRORS = re.compile(r"(Error|Exception|Warning|SystemExit)$")
 
 

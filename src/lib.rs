@@ -28,7 +28,7 @@
 //! | `surface` | a closed mesh of triangles on the surface |
 //! | [`packing`] | bodies placed in a container without overlap, as a start for a simulation |
 //! | [`rock`] | a rock mass cut into blocks by its joints |
-//! | `equilibrium` | whether a scene of rigid bodies stands, and by how much (feature `cone-program`) |
+//! | `equilibrium` | whether a scene of rigid bodies stands, and by how much (feature `equilibrium`) |
 //! | [`shapes`] | builders: half-spaces, points, surfaces and solids with rounded edges, about their centroid |
 //! | `serialisation` | what can be written down and read back with serde (feature `serde`) |
 //! | `capi` | the C interface, the only place with `unsafe` (feature `capi`) |

@@ -52,7 +52,7 @@ box(620, 16, 140, 46, "C, C++", "header, pkg-config", fill=USER)
 box(790, 16, 140, 46, "Rust", "a crate", fill=USER)
 
 frame(20, 84, 440, 196, "The plugin: yade-glue/ (C++, Python)")
-box(40, 114, 400, 44, "python/potential_particles", "shapes, boundaries, packings, output, several ranks", fill=PLUGIN)
+box(40, 114, 400, 44, "Python, with python/", "shapes, packing, rock; boundaries, output, ranks", fill=PLUGIN)
 box(40, 178, 88, 88, "shape", "the body's", "particle", fill=PLUGIN)
 box(136, 178, 88, 88, "bounds", "boxes for", "the collider", fill=PLUGIN)
 box(232, 178, 100, 88, "loop, pair", "what a step", "and a pair keep", fill=PLUGIN)

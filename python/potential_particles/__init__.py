@@ -7,9 +7,9 @@ With <t> = max(t, 0) a particle is {x: S(x) <= 1} in its local frame,
 
 A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a
 Batch those of all pairs of a step on numpy arrays. `shapes` makes particles of points, surfaces, scans and names of
-solids, `packing` fills containers with them, `rock` cuts rock into blocks, `equilibrium` says whether bodies stand.
-Particle.in_plane and Pose.in_plane make bodies of two dimensions. Lengths are in the caller's unit, quaternions (w,
-x, y, z), vectors in world axes unless said otherwise.
+solids, `packing` fills containers with them, `rock` cuts rock into blocks, `equilibrium` says whether bodies stand,
+`lammps` writes and draws LAMMPS's files. Particle.in_plane and Pose.in_plane make bodies of two dimensions. Lengths are
+in the caller's unit, quaternions (w, x, y, z), vectors in world axes unless said otherwise.
 
 In YADE, with the plugin, the names of `potential_particles.yade` stand here, too.
 """
@@ -110,11 +110,3 @@ if ("yade" in sys.modules or importlib.util.find_spec("yade")) and importlib.uti
     from .yade import __all__ as _of_yade, _glue  # noqa: F401
 
     __all__ += _of_yade
-
-_MOVED = {"builders": "shapes", "slicing": "rock"}
-
-
-def __getattr__(name):
-    if name in _MOVED:
-        raise AttributeError(f"potential_particles.{name} is potential_particles.{_MOVED[name]} now (docs/wheel.md)")
-    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The one way in which files are written: whole, or not at all. The same file is part of the packages for numpy, YADE
-and LAMMPS.
-"""
+"""The one way in which files are written: whole, or not at all."""
 import contextlib
 import json
 import math

@@ -8,7 +8,7 @@ import ctypes
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
 
-REMEDY = "apt install python3-vtk9 libegl1 libgl1-mesa-dri"
+REMEDY = "apt install python3-vtk9 libegl1 libgl1-mesa-dri, or pip install vtk"
 
 # Of the EGL and OpenGL registries.
 _PLATFORM_SURFACELESS, _OPENGL_API = 0x31DD, 0x30A2

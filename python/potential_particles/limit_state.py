@@ -13,6 +13,8 @@ QUESTIONS = {"stands": "stands", "load": "load_factor", "strength": "strength_fa
 SAME = 1e-9
 # A contact carries nothing if its force is below this part of the largest one, to which forces are balanced.
 NOTHING = 1e-6
+# A bound this many times the factor comes from forces that friction could clamp between neighbours.
+CLAMPS = 3.0
 
 
 class Body:
@@ -43,10 +45,15 @@ class Equilibrium:
     used: np.ndarray  #: (contacts,) share of friction and cohesion that is used; 0 where a contact carries nothing
 
     def __repr__(self):
-        said = "stands" if self.stands else "falls"
-        factor = f", factor {self.factor:.6g}, at most {self.bound:.6g}"
-        factor = "" if self.question == "stands" or not self.stands else factor
-        return f"<Equilibrium: {said}{factor}; {len(self.contacts)} contacts>"
+        if not self.stands:
+            said = "it falls"
+        elif self.question == "stands":
+            said = "it stands"
+        else:
+            what = "factor of safety" if self.question == "strength" else "load factor"
+            said = f"{what} {self.factor:.6g}, at most {self.bound:.6g}"
+            said += ", since friction may clamp" if self.bound > CLAMPS * self.factor else ""
+        return f"<Equilibrium: {said}; {len(self.contacts)} contacts>"
 
 
 def scene_of(bodies, rows):

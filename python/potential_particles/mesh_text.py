@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Points and polygons of STL and OBJ files. The same file is part of the packages for numpy and YADE.
+"""Points and polygons of STL and OBJ files.
 
 Libraries were tried: the readers of VTK take counts and indices as they are, where one that is wrong ends the process,
 and numbers by the locale of the process, which Qt sets; the crates stl_io and tobj refuse files that others read.

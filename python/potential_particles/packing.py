@@ -11,15 +11,14 @@ In YADE add_packing(placements, material) makes bodies of them.
 The library decides what overlaps (docs/packing.md).
 """
 import os
-import signal
 import sys
-import threading
 import time
 import typing
 
-from ._core import Particle, _packing
+from ._core import Pose, _packing
 from .arguments import number as finite
 from .arguments import LARGE, MANY, positive, rows, vector, whole
+from .progress import Bar, Interrupts
 
 __all__ = ["Box", "Cylinder", "Placement", "pack", "volume_between"]
 
@@ -40,12 +39,23 @@ class Cylinder(typing.NamedTuple):
 
 
 class Placement(typing.NamedTuple):
-    """One body of a packing: body(shape.scaled(scale), material, position, orientation) makes it."""
+    """One body of a packing: particle and pose are for detect(); in YADE
+    body(shape.scaled(scale), material, position, orientation) makes a body of it."""
 
     shape: object
     scale: float
     position: tuple
     orientation: tuple  #: w, x, y, z
+
+    @property
+    def particle(self):
+        """The Particle, for detect() and its like."""
+        return self.shape.scaled(self.scale).particle
+
+    @property
+    def pose(self):
+        """The Pose of the particle."""
+        return Pose(_centroid(self), _product(self.orientation, tuple(self.shape.orientation)))
 
 
 def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None,
@@ -85,12 +95,12 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
 
     def placed(new):
         placements.extend(_placement(shapes[index], *where) for index, *where in new)
-        report.update(len(placements))
+        report.bar.reached(len(placements))
         return not interrupted
 
-    with _Interrupts() as interrupted:
+    with Interrupts() as interrupted:
         try:
-            particles = [Particle(shape.planes, shape.r, shape.k, shape.R) for shape in shapes]
+            particles = [shape.particle for shape in shapes]
             _packing.pack(particles, *space, _size_rows(sizes), shares, placed, **how)
         finally:
             report.close(len(placements), interrupted, volume_between(placements), _volume(*space))
@@ -171,37 +181,15 @@ def _cross(a, b):
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 
 
-class _Interrupts:
-    """While it is entered, Ctrl-C is noted in a list instead of raised."""
-
-    def __enter__(self):
-        self.noted = []
-        self.before = None
-        if threading.current_thread() is threading.main_thread():
-            self.before = signal.signal(signal.SIGINT, lambda *_: self.noted.append("Ctrl-C"))
-        return self.noted
-
-    def __exit__(self, *_):
-        if self.before is not None:
-            signal.signal(signal.SIGINT, self.before)
-
-
 class _Report:
     """A bar on a terminal, and a line at the end."""
 
     def __init__(self, wanted, shown):
-        self.wanted, self.shown, self.begin, self.bar = wanted, shown, time.monotonic(), None
-        if shown and sys.stderr.isatty():
-            from tqdm import tqdm
-            self.bar = tqdm(total=wanted, unit=" bodies", desc="packing", leave=False)
-
-    def update(self, count):
-        if self.bar is not None:
-            self.bar.update(count - self.bar.n)
+        self.wanted, self.shown, self.begin = wanted, shown, time.monotonic()
+        self.bar = Bar(wanted, shown, "bodies", "packing")
 
     def close(self, count, interrupted, solid, volume):
-        if self.bar is not None:
-            self.bar.close()
+        self.bar.close()
         if self.shown and count:
             of, why = "", ""
             if self.wanted is not None and count < self.wanted:

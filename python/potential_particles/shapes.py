@@ -31,7 +31,8 @@ from .voxels import from_voxels, voxel_image
 
 __all__ = [
     "Fit", "Shape", "capsule", "cone", "cuboid", "cylinder", "ellipsoid", "from_mesh", "from_planes",
-    "from_surface", "from_vertices", "from_voxels", "platonic_solid", "prism", "random_rock", "sphere", "superquadric", "voxel_image"
+    "from_surface", "from_vertices", "from_voxels", "platonic_solid", "prism", "random_rock", "sphere", "superquadric",
+    "voxel_image"
 ]
 
 

@@ -76,7 +76,9 @@ def write_shapes(path, shapes):
 def read_shapes(path):
     """{name: Particle} of a file that write_shapes has written, or by hand."""
     shapes, name = {}, None
-    for line in open(path):
+    with open(path, encoding="utf-8") as file:
+        lines = file.readlines()
+    for line in lines:
         words = line.split("#")[0].split()
         if not words:
             continue

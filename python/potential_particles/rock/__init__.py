@@ -4,7 +4,7 @@
     from potential_particles import rock
     domain = rock.Domain.box((0, 0, 0), (20, 10, 12)).below((12, 0, 12), dip=60, dip_direction=90)
     mass = rock.slice(domain, [rock.JointSet(35, 90, 1.5), rock.JointSet(80, 265, 2.0, fisher=150)])
-    ids = rock.bodies(mass, fixed=mass.on_domain(rock.Domain.SIDES))
+    ids = rock.bodies(mass, fixed=mass.on_domain(rock.Domain.SIDES))          # in YADE
 
 Axes: x east, y north, z up. Dips and dip directions are in degrees, a dip direction is clockwise from north; lengths
 are in the script's unit. What is wrong with an argument is a ValueError of one sentence, and nothing is made.
@@ -14,6 +14,7 @@ import importlib
 import importlib.util
 import pkgutil
 
+from ..limit_state import Equilibrium
 from .block_theory import COLOURS, KeyBlock, key_blocks, summary
 from .domain import Domain
 from .files import read_blockgen, read_dfn
@@ -27,14 +28,19 @@ from .stability import limit_analysis, limit_scene
 __path__ = pkgutil.extend_path(__path__, __name__)
 
 __all__ = [
-    "COLOURS", "Block", "Domain", "Joint", "JointSet", "KeyBlock", "RockMass", "face_pressure", "joint", "key_blocks",
-    "limit_analysis", "limit_scene", "plot", "polygon", "read_blockgen", "read_dfn", "rectangle", "slice", "summary",
-    "water_pressure"
+    "COLOURS", "Block", "Domain", "Equilibrium", "Joint", "JointSet", "KeyBlock", "RockMass", "face_pressure", "joint",
+    "key_blocks", "limit_analysis", "limit_scene", "plot", "polygon", "read_blockgen", "read_dfn", "rectangle",
+    "slice", "summary", "water_pressure"
 ]
 _OF_YADE = {
     "apply_loads": "scene", "bodies": "scene", "excavate": "scene", "joint_engine": "scene",
     "JointRecorder": "surfaces", "joint_table": "surfaces"
 }
+
+
+# In YADE, from potential_particles.rock import * has them, too.
+if importlib.util.find_spec(".scene", __name__) and importlib.util.find_spec("yade"):
+    __all__ += list(_OF_YADE)
 
 
 def __getattr__(name):

@@ -75,7 +75,7 @@ class Domain:
         return Domain(self.planes, (*self.left_out, *convex(regions)))
 
     def ball(self):
-        """Centre (3,) and radius of a ball that holds it, without regards to what is left out; ValueError if it is
+        """Centre (3,) and radius of a ball that holds it, without regard to what is left out; ValueError if it is
         empty or open.
         """
         corners = _slicing.slice(self.planes, [], most_blocks=1).arrays()[3]

@@ -11,6 +11,7 @@ import numpy as np
 
 from .._core import _slicing
 from ..arguments import LARGE, number, whole, within
+from ..progress import Bar, Interrupts
 from .domain import Domain, convex
 from .joints import Joint, JointSet
 
@@ -177,7 +178,7 @@ def slice(domain, joints, regions=(), least_volume=0.0, least_thickness=0.0, lea
     its edge; or the largest ball in it has a diameter below least_width (length), or its extent along x, y or z is more
     than largest_aspect times that diameter, as the paper has it. Such cuts are counted.
     most_blocks: more are a ValueError. threads: that cut, None for one on each processor; the blocks are the same for
-        any number. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks that there are come back.
+        any number. progress: a bar on a terminal. Ctrl-C ends the cuts, and the blocks made so far are returned.
     """
     if not isinstance(domain, Domain):
         raise ValueError(f"domain is {type(domain).__name__}, not a rock.Domain: Domain.box(lower, upper) makes one")
@@ -289,25 +290,19 @@ def _not_negative(value, name):
 
 
 class _Report:
-    """A bar on a terminal for what takes longer than an instant; Ctrl-C is noted."""
+    """A bar, and Ctrl-C that is noted."""
 
     def __init__(self, total, shown):
-        from ..packing import _Interrupts
-        self.total, self.shown, self.bar, self.interrupts = total, shown and sys.stderr.isatty(), None, _Interrupts()
+        self.bar, self.interrupts = Bar(total, shown, "joints", "slicing"), Interrupts()
 
     def __enter__(self):
         self.noted = self.interrupts.__enter__()
-        if self.shown:
-            from tqdm import tqdm
-            self.bar = tqdm(total=self.total, unit=" joints", desc="slicing", leave=False, delay=0.5)
         return self
 
     def told(self, joints, blocks):
-        if self.bar is not None:
-            self.bar.update(joints - self.bar.n)
+        self.bar.reached(joints)
         return not self.noted
 
     def __exit__(self, *error):
-        if self.bar is not None:
-            self.bar.close()
+        self.bar.close()
         self.interrupts.__exit__(*error)

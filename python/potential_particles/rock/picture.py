@@ -9,31 +9,34 @@ from ..files import written
 from .mass import marked
 
 
-def plot(mass, file, keys=(), found=None, held=(), towards=(0.8, -0.6, 0.4)):
+def plot(mass, file, keys=(), found=None, held=(), removed=(), towards=(0.8, -0.6, 0.4)):
     """Draws a RockMass to a PNG, PDF or SVG, by matplotlib.
 
     keys: of key_blocks(), whose colours (COLOURS) the blocks take. found: an answer of limit_analysis() for this mass:
     then forces on the joints, in the colour of the friction used, and the mechanism. held: blocks that are grey and
-    stay, as of limit_analysis(). towards: from the rock to the eye.
+    stay, removed: those that are not there, as of limit_analysis(). towards: from the rock to the eye.
     """
     colours = {block: one.color for one in keys for block in one.blocks}
-    held = marked(held, len(mass), "held")
+    held, gone = marked(held, len(mass), "held"), marked(removed, len(mass), "removed")
     still = np.zeros(3), np.zeros(3)
     velocities = {} if found is None else found.velocities
     blocks = []
-    for piece in mass.blocks_of_pieces:
+    for piece in (piece[~gone[piece]] for piece in mass.blocks_of_pieces):
+        if not len(piece):
+            continue
         linear, angular = map(np.array, velocities.get(int(piece[0]), still))
         volumes, centroids = mass.blocks["volume"][piece], mass.blocks["centroid"][piece]
         centre = volumes @ centroids / volumes.sum()
         for block in piece:
             faces = [mass.outline(face) for face in mass[block].faces]
             blocks.append(Block(faces, centre, linear, angular, bool(held[piece].any()), colours.get(int(block), STONE)))
-    if held.all():
-        raise ValueError("held has all blocks: none is left to be drawn")
+    if (held | gone).all():
+        raise ValueError("all blocks are held or removed: none is left to be drawn")
     if found is None:
         title, at, forces, used = f"{len(mass):,} blocks", np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0)
     else:
-        title = "it falls" if not found.stands else "it stands" if found.question == "stands" else f"factor {found.factor:.4g}"
+        stands = "it stands" if found.question == "stands" else f"factor {found.factor:.4g}"
+        title = stands if found.stands else "it falls"
         at, forces, used = found.corners, found.forces, found.used[found.contact_of_corner]
     drawn = picture([(title, blocks, at, forces, used)], towards, width=8)
     with written(file) as out:

@@ -15,24 +15,26 @@ from .mass import LEAST_SHARE, marked
 
 def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0, tension=0.0, density=2600.0,
                    gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False):
-    """Whether the blocks of a RockMass come to rest on their faces, loaded from nothing: an Equilibrium, as of
-    limit_analysis() of YADE's scenes. Its bodies are the pieces of the mass, named by their first block.
+    """Whether the blocks of a RockMass come to rest on their faces, loaded from nothing: an Equilibrium, whose bodies are
+    the pieces of the mass, named by their first block.
 
     held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES). removed: blocks that are
-    taken out. question: "stands", "load" or
-    "strength"; push: (3,), a live load of each block's weight in this direction; dilatant: docs/equilibrium.md. friction, density, gravity, loads:
-    as of key_blocks(). cohesion, tension: strength of joints, force per area, numbers or dicts by entries of the
-    `joints` of slice().
+    taken out. question: "stands"; "load", the largest multiple of the push that can be borne; "strength", the factor of
+    safety on tan phi, cohesion and tension. friction, density, gravity: as of key_blocks(). cohesion, tension: strength
+    of joints, force per area, numbers or dicts by entries of the `joints` of slice(). loads: (blocks, 6), force and
+    torque of each block about its centroid. push: (3,), a load of each block's weight in this direction, in shares of
+    gravity; of "stands" and "strength" it is there once. dilatant: joints open as they slip (docs/equilibrium.md).
     """
     asked(question)
     bodies, names, rows, pairs = _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push)
     return solved(question, dilatant, bodies, names, rows, pairs)
 
 
-def limit_scene(mass, held, friction=30.0, cohesion=0.0, tension=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81), removed=(),
-          loads=None, push=None):
+def limit_scene(mass, held, friction=30.0, cohesion=0.0, tension=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81),
+                removed=(), loads=None, push=None):
     """The same blocks and joints as an equilibrium.Scene, for what limit_analysis() does not ask: stress in situ, bolts,
-    other live loads. Its bodies are the pieces of the mass, in their order.
+    other live loads. Its bodies are the pieces of the mass, in their order; the push is live there, so that
+    stands(live=1) and strength_factor(live=1) have it once.
     """
     bodies, _, rows, _ = _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push)
     return scene_of(bodies, rows)

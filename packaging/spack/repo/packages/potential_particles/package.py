@@ -19,7 +19,7 @@ class PotentialParticles(Package):
 
     def install(self, spec, prefix):
         install = Executable("scripts/install.sh")
-        install(extra_env={"PREFIX": str(prefix)})
+        install(extra_env={"PREFIX": str(prefix), "PYTHON_DIR": ""})
 
     def test_header(self):
         """the header and the library belong together"""
