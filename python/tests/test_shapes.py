@@ -305,7 +305,7 @@ class Rock(unittest.TestCase):
         self.assertAlmostEqual(np.linalg.norm(loads[upper, :3]) / (area * 2e4), 1, delta=1e-12)
 
     def test_bodies_need_yade(self):
-        with self.assertRaisesRegex(AttributeError, "rock.bodies makes bodies of YADE"):
+        with self.assertRaisesRegex(AttributeError, "rock.bodies is for bodies of YADE"):
             rock.bodies
 
 

@@ -10,7 +10,6 @@ Axes: x east, y north, z up. Dips and dip directions are in degrees, a dip direc
 are in the script's unit. What is wrong with an argument is a ValueError of one sentence, and nothing is made.
 docs/rock.md leads from a scanline to a result.
 """
-import importlib
 import importlib.util
 import pkgutil
 
@@ -32,20 +31,16 @@ __all__ = [
     "key_blocks", "limit_analysis", "limit_scene", "plot", "polygon", "read_blockgen", "read_dfn", "rectangle",
     "slice", "summary", "water_pressure"
 ]
-_OF_YADE = {
-    "apply_loads": "scene", "bodies": "scene", "excavate": "scene", "joint_engine": "scene",
-    "JointRecorder": "surfaces", "joint_table": "surfaces"
-}
+_OF_YADE = ["JointRecorder", "apply_loads", "bodies", "excavate", "joint_engine", "joint_table"]
 
+if importlib.util.find_spec("yade") and importlib.util.find_spec(".scene", __name__):
+    from .scene import apply_loads, bodies, excavate, joint_engine
+    from .surfaces import JointRecorder, joint_table
 
-# In YADE, from potential_particles.rock import * has them, too.
-if importlib.util.find_spec(".scene", __name__) and importlib.util.find_spec("yade"):
-    __all__ += list(_OF_YADE)
+    __all__ += _OF_YADE
 
 
 def __getattr__(name):
-    if name not in _OF_YADE:
-        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
-    if not importlib.util.find_spec(f".{_OF_YADE[name]}", __name__):
-        raise AttributeError(f"rock.{name} makes bodies of YADE: it needs YADE and its plugin")
-    return getattr(importlib.import_module(f".{_OF_YADE[name]}", __name__), name)
+    if name in _OF_YADE:
+        raise AttributeError(f"rock.{name} is for bodies of YADE: it needs YADE and its plugin")
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
