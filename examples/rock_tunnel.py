@@ -26,7 +26,7 @@ sets = [
 ]
 mass = rock.slice(domain, sets, regions=[tunnel], least_volume=0.3, least_thickness=0.2)
 inside = mass.inside(0)
-keys = rock.key_blocks(mass, free=(), friction=FRICTION, removed=inside)
+keys = rock.key_blocks(mass, free=(), degrees=FRICTION, removed=inside)
 print(mass)
 print(rock.summary(keys))
 

@@ -21,11 +21,11 @@ domain = rock.Domain.box((0, 0, 0), (16, 10, 10)).below((13, 0, 0), dip=62, dip_
 sets = [rock.JointSet(35, 90, 2.2), rock.JointSet(80, 265, 2.4, fisher=150, seed=2), rock.JointSet(88, 355, 2.8)]
 mass = rock.slice(domain, sets, least_volume=0.05, least_thickness=0.1)
 held = mass.on_domain([rock.Domain.WEST, rock.Domain.NORTH, rock.Domain.SOUTH, rock.Domain.BOTTOM])
-keys = rock.key_blocks(mass, [rock.Domain.TOP, rock.Domain.EAST, 6], friction=FRICTION)
+keys = rock.key_blocks(mass, [rock.Domain.TOP, rock.Domain.EAST, 6], degrees=FRICTION)
 print(mass)
 print(rock.summary(keys))
 
-limit = rock.limit_analysis(mass, held, friction=FRICTION)
+limit = rock.limit_analysis(mass, held, degrees=FRICTION)
 print(limit)
 rock.plot(mass, os.path.join(OUT, "keys.png"), keys=keys)
 rock.plot(mass, os.path.join(OUT, "limit.png"), keys=keys, found=limit, held=held)

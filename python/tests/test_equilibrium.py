@@ -82,7 +82,7 @@ class Rock(unittest.TestCase):
         box = np.vstack([[s * a for a in row] + [1] for row in np.eye(3) for s in (1, -1)])
         mass = rock.slice(rock.Domain(box), [rock.joint((0, 0, 0), 25, 90), rock.joint((0, 0, 0), 90, 0)])
         held = [i for i, one in enumerate(mass) if one.centroid[2] < 0]
-        scene = rock.limit_scene(mass, held, friction=math.degrees(math.atan(0.8)))
+        scene = rock.limit_scene(mass, held, friction=0.8)
         self.assertEqual((scene.body_count, scene.contact_count), (4, 3))
         self.assertEqual(scene.corners.shape, (len(scene.contact_of_corner), 3))
         self.assertAlmostEqual(scene.strength_factor().factor, 0.8 / math.tan(math.radians(25)), delta=2e-6)
@@ -90,9 +90,7 @@ class Rock(unittest.TestCase):
             rock.limit_scene(mass, [9])
         # Strength by joint: that of the joint on which it slides counts.
         for friction, expected in (((0.8, 0.1), 0.8), ((0.5, 9.0), 0.5)):
-            angles = {entry: math.degrees(math.atan(one)) for entry, one in enumerate(friction)}
-            angles[None] = 0.0
-            scene = rock.limit_scene(mass, held, friction=angles)
+            scene = rock.limit_scene(mass, held, friction={**dict(enumerate(friction)), None: 0.0})
             found = scene.strength_factor().factor
             self.assertAlmostEqual(found, expected / math.tan(math.radians(25)), delta=2e-6)
         scene.push((1, 0, 0))

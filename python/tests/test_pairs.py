@@ -304,7 +304,7 @@ class Kept(unittest.TestCase):
         places = pp.Pose.in_plane((0, 0)), pp.Pose.in_plane((1.9, 0.2))
         in_plane = pp.detect(square, places[0], square, places[1])
         mass = rock.slice(rock.Domain(BOX), [rock.JointSet(30, 90, 1.5, fisher=40), rock.joint((0, 1, 2), 50, 60, radius=2.0)])
-        scene = rock.limit_scene(mass, [0, 1], friction=42.0)
+        scene = rock.limit_scene(mass, [0, 1], friction=0.9)
         for one in [
                 contact, apart, flat, patch,
                 pp.closest_point(body, poses[0], body, poses[1], "a"),

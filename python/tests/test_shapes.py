@@ -294,11 +294,11 @@ class Rock(unittest.TestCase):
         friction = 30.0
         expected = math.tan(math.radians(friction)) / math.tan(math.radians(40))
         open_sides = [one for one in range(6) if one != rock.Domain.BOTTOM]
-        found = [one for one in rock.key_blocks(mass, open_sides, friction) if upper in one.blocks][0]
+        found = [one for one in rock.key_blocks(mass, open_sides, degrees=friction) if upper in one.blocks][0]
         self.assertEqual((found.mode, round(found.factor / expected, 12)), ("sliding", 1.0))
-        answer = rock.limit_analysis(mass, [1 - upper], friction=friction)
+        answer = rock.limit_analysis(mass, [1 - upper], degrees=friction)
         self.assertAlmostEqual(answer.factor / expected, 1, delta=1e-5)
-        scene = rock.limit_scene(mass, [1 - upper], friction=friction)
+        scene = rock.limit_scene(mass, [1 - upper], degrees=friction)
         self.assertAlmostEqual(scene.strength_factor().factor / expected, 1, delta=1e-5)
         loads = rock.water_pressure(mass, mass.faces_of([0]), level=4.0, unit_weight=1e4)
         area = 16 / math.cos(math.radians(40))

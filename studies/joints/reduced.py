@@ -121,7 +121,7 @@ def tunnel(stiffness=2e9, friction=45.0):
     mass = rock.slice(domain, sets, regions=[drift], least_volume=0.3, least_thickness=0.2)
     inside = mass.inside(0)
     bolted = np.zeros(len(mass), bool)
-    bolted[[block for one in rock.key_blocks(mass, free=(), friction=friction, removed=inside) if one.moves
+    bolted[[block for one in rock.key_blocks(mass, free=(), degrees=friction, removed=inside) if one.moves
             for block in one.blocks]] = True
     fresh(damping=0.5, normalStiffness=stiffness, shearStiffness=stiffness / 2,
           frictionAngle=math.radians(friction), restitution=0.3)

@@ -42,7 +42,7 @@ def chosen(mass, friction, random):
     one.
     """
     outer = mass.on_domain(rock.Domain.SIDES)
-    found = [one for one in rock.key_blocks(mass, FREE, friction, density=DENSITY)
+    found = [one for one in rock.key_blocks(mass, FREE, degrees=friction, density=DENSITY)
              if one.mode != "inner" and not outer[list(one.blocks)].any() and abs(one.factor - 1.0) > MARGIN]
     moving = [one for one in found if one.moves]
     if moving and random.uniform() < 0.75:
@@ -58,7 +58,7 @@ def limit_analysis(mass, one, friction):
     held = np.ones(len(mass), bool)
     held[list(one.blocks)] = False
     try:
-        found = rock.limit_analysis(mass, held, friction=friction, density=DENSITY)
+        found = rock.limit_analysis(mass, held, degrees=friction, density=DENSITY)
         factor = found.factor if found.stands else 0.0
     except ValueError as error:
         if "infinite" not in str(error):

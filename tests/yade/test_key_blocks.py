@@ -14,7 +14,7 @@ cube = Domain.box((-1, -1, -1), (1, 1, 1))
 bench = Domain.box((0, 0, 0), (4, 2, 3)).below((3.9, 0, 0), 75, 90)
 plane = rock.slice(bench, [rock.joint((3, 0, 1), 35, 90), rock.joint((1, 1, 1), 90, 90)], progress=False)
 free = (Domain.TOP, Domain.NORTH, Domain.SOUTH, 6)
-found = rock.key_blocks(plane, free, friction={0: 30, None: 5}, cohesion={0: 2e3, None: 0})
+found = rock.key_blocks(plane, free, degrees={0: 30, None: 5}, cohesion={0: 2e3, None: 0})
 slid, = [one for one in found if one.mode == "sliding"]
 area = plane.faces["area"][slid.faces[0]]
 weight = 2600 * 9.81 * slid.volume
@@ -32,7 +32,7 @@ line *= -np.sign(line[2]) / np.linalg.norm(line)
 trend = math.degrees(math.atan2(line[0], line[1]))
 block = Domain.box((-9, -9, -9), (9, 9, 1)).below((0, 0, 0), 80, trend)
 wedge = rock.slice(block, [rock.joint((0, 0, 0), *one) for one in (first, second)], progress=False)
-found = [one for one in rock.key_blocks(wedge, (Domain.TOP, 6), friction=33) if one.mode == "wedge"]
+found = [one for one in rock.key_blocks(wedge, (Domain.TOP, 6), degrees=33) if one.mode == "wedge"]
 check.equal(len(found), 1, "one wedge")
 cosine = normals[0] @ normals[1]
 forces = np.linalg.solve([[1, cosine], [cosine, 1]], [normals[0][2], normals[1][2]])
@@ -43,10 +43,10 @@ check.close(np.abs(np.array(found[0].direction) - line).max(), 0.0, 1e-9, "along
 hung = rock.slice(cube, [rock.joint((0, 0, 0), 0, 0)], regions=[Domain.box((-2, -2, -2), (2, 2, -0.5))], progress=False)
 modes = [one.mode for one in rock.key_blocks(hung, (), removed=hung.inside(0))]
 check.equal(sorted(modes), ["falling", "inner"], "walls hold, and what they do not hold falls")
-dry, = [one for one in rock.key_blocks(plane, free, friction=40) if one.mode == "sliding"]
+dry, = [one for one in rock.key_blocks(plane, free, degrees=40) if one.mode == "sliding"]
 behind = plane.faces_of(1)
 wet, = [
-    one for one in rock.key_blocks(plane, free, friction=40, loads=rock.water_pressure(plane, behind, level=3.0))
+    one for one in rock.key_blocks(plane, free, degrees=40, loads=rock.water_pressure(plane, behind, level=3.0))
     if one.blocks == dry.blocks
 ]
 check.true(wet.factor < dry.factor, f"water in the crack behind: {wet.factor} < {dry.factor}")
@@ -56,7 +56,7 @@ print(rock.summary(found))
 # way.
 for seed in range(15):
     mass, friction, _ = slope_cuts.cut(1000 + seed)
-    for one in rock.key_blocks(mass, slope_cuts.FREE, friction):
+    for one in rock.key_blocks(mass, slope_cuts.FREE, degrees=friction):
         if one.mode == "inner":
             continue
         faces = mass[one.blocks[0]].faces
@@ -90,7 +90,10 @@ check.true(not any(one[2] == np.inf > one[3] for one in said), f"no cut stands b
 mass, friction, _ = slope_cuts.cut(0)
 check.raises(ValueError, lambda: rock.limit_analysis(mass, range(len(mass))), "all blocks held", "hold fewer blocks")
 check.raises(ValueError, lambda: rock.limit_analysis(mass, [0], "?"), "an unknown question", "question='?' is unknown")
-check.raises(ValueError, lambda: rock.limit_analysis(mass, [0], friction=90), "a vertical cone", "friction=90")
+check.raises(ValueError, lambda: rock.limit_analysis(mass, [0], degrees=90), "a vertical cone", "degrees=90")
+check.raises(ValueError, lambda: rock.key_blocks(mass, (), friction=35), "an angle as a coefficient", "give degrees=35")
+check.equal([one.factor for one in rock.key_blocks(mass, (), friction=math.tan(math.radians(25)))],
+            [one.factor for one in rock.key_blocks(mass, (), degrees=25)], "coefficient or angle")
 
 # Against the simulation: what block theory frees moves by a millimetre, and nothing else does.
 tried, moving = 0, 0

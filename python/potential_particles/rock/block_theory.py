@@ -31,6 +31,9 @@ TOLERANCE = 1e-9
 # opens and holds nothing.
 LEAST_AREA = 1e-9
 
+# The friction angle where none is given, degrees; a coefficient above that of 84 degrees is an angle.
+USUAL, STEEPEST = 30.0, 10.0
+
 MODES = ("falling", "sliding", "wedge", "resting", "locked", "inner")
 #: By mode, and beyond what friction holds.
 COLOURS = {
@@ -73,19 +76,20 @@ class KeyBlock:
         return COLOURS["held" if self.mode in ("sliding", "wedge") and not self.moves else self.mode]
 
 
-def key_blocks(mass, free, friction=30.0, cohesion=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81), removed=(),
-               loads=None):
+def key_blocks(mass, free, friction=None, cohesion=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81), removed=(),
+               loads=None, degrees=None):
     """The KeyBlock of each piece of a RockMass, sorted by factor of safety, the largest first among equals.
 
     free: numbers of the planes of the domain that are free faces (slope, crest); its other planes hold. removed: blocks
     that are taken out, as mass.inside(0); what bordered them is free, too, and so is what bordered what the domain
-    leaves out. friction: angle of joints, degrees; cohesion: their shear strength without pressure (force per area): a
-    number, or a dict by entries of the `joints` of slice(), whose key None is for all others. density, gravity: of the
-    weight.
+    leaves out.
+    friction: of joints, a coefficient, or in its place degrees, the angle (neither: 30 degrees); cohesion: their shear
+    strength without pressure, force per area: numbers, or dicts by entries of the `joints` of slice(), whose key None is
+    for all others. density, gravity: of the weight.
     loads: (blocks, 6), forces (and torques, which do not count) beside it, as of water_pressure.
     """
     free = planes_of(mass, free, "free")
-    friction, cohesion = by_set(friction, "friction", 89.9), by_set(cohesion, "cohesion")
+    friction, cohesion = friction_of(friction, degrees), by_set(cohesion, "cohesion")
     weight = positive(density, "density") * vector(gravity, "gravity")
     gone = marked(removed, len(mass), "removed")
     pushed = np.zeros((len(mass), 3)) if loads is None else loads_of(loads, len(mass))[:, :3]
@@ -104,7 +108,7 @@ def key_blocks(mass, free, friction=30.0, cohesion=0.0, density=2600.0, gravity=
         holding = faces[counts & ((pressed[faces] > LEAST_SHARE * area) | outer[faces])]
         is_open = bool(np.any(counts & ~outer[faces] & (touching[faces] < (1.0 - LEAST_SHARE) * area)))
         force = weight * mass.blocks["volume"][blocks].sum() + pushed[blocks].sum(0)
-        strength = [(math.tan(math.radians(friction(one))), cohesion(one)) for one in mass.set_of_face[holding]]
+        strength = [(friction(one), cohesion(one)) for one in mass.set_of_face[holding]]
         mode, direction, on, factor = _motion(-mass.faces["plane"][holding, :3], pressed[holding], strength,
                                               force) if is_open else ("inner", None, (), math.inf)
         found.append(
@@ -206,6 +210,19 @@ def _areas(mass, gone):
         np.add.at(touching, pairs[there, side], mass.partners["area"][there])
         np.add.at(pressed, pairs[other, side], mass.partners["area"][other])
     return pressed, touching
+
+
+def friction_of(friction, degrees):
+    """tan phi by entry, as by_set has it, of a coefficient, of an angle in degrees in its place, or of neither."""
+    if friction is not None and degrees is not None:
+        raise ValueError(f"friction={friction!r} and degrees={degrees!r} both give the friction: leave out one")
+    if friction is None:
+        angle = by_set(USUAL if degrees is None else degrees, "degrees", 89.9)
+        return lambda entry: math.tan(math.radians(angle(entry)))
+    for one in friction.values() if isinstance(friction, dict) else [friction]:
+        if isinstance(one, (int, float)) and one > STEEPEST:
+            raise ValueError(f"friction={one:g} is a coefficient, the tangent of an angle: give degrees={one:g}")
+    return by_set(friction, "friction")
 
 
 def by_set(given, name, most=math.inf):

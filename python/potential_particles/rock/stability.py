@@ -2,47 +2,47 @@
 """Limit analysis of a rock mass as it was cut, without a simulation: does it stand, how much more could it bear, how
 much weaker could its joints be? With turns and with all blocks at once, which block theory leaves out.
 """
-import math
-
 import numpy as np
 
 from ..arguments import positive, vector
 from ..limit_state import Body, asked, clipped, scene_of, solved
-from .block_theory import by_set
+from .block_theory import by_set, friction_of
 from .loads import loads_of
 from .mass import LEAST_SHARE, marked
 
 
-def limit_analysis(mass, held, question="strength", friction=30.0, cohesion=0.0, tension=0.0, density=2600.0,
-                   gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False):
+def limit_analysis(mass, held, question="strength", friction=None, cohesion=0.0, tension=0.0, density=2600.0,
+                   gravity=(0.0, 0.0, -9.81), removed=(), loads=None, push=None, dilatant=False, degrees=None):
     """Whether the blocks of a RockMass come to rest on their faces, loaded from nothing: an Equilibrium, whose bodies are
     the pieces of the mass, named by their first block.
 
     held: blocks that are held, numbers or bool (blocks,), as mass.on_domain(Domain.SIDES). removed: blocks that are
     taken out. question: "stands"; "load", the largest multiple of the push that can be borne; "strength", the factor of
-    safety on tan phi, cohesion and tension. friction, density, gravity: as of key_blocks(). cohesion, tension: strength
-    of joints, force per area, numbers or dicts by entries of the `joints` of slice(). loads: (blocks, 6), force and
-    torque of each block about its centroid. push: (3,), a load of each block's weight in this direction, in shares of
-    gravity; of "stands" and "strength" it is there once. dilatant: joints open as they slip (docs/equilibrium.md).
+    safety on tan phi, cohesion and tension. friction or degrees, density, gravity: as of key_blocks(). cohesion,
+    tension: strength of joints, force per area, numbers or dicts by entries of the `joints` of slice(). loads: (blocks,
+    6), force and torque of each block about its centroid. push: (3,), a load of each block's weight in this direction,
+    in shares of gravity; of "stands" and "strength" it is there once. dilatant: joints open as they slip
+    (docs/equilibrium.md).
     """
     asked(question)
-    bodies, names, rows, pairs = _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push)
+    bodies, names, rows, pairs = _parts(mass, held, friction_of(friction, degrees), cohesion, tension, density, gravity,
+                                        removed, loads, push)
     return solved(question, dilatant, bodies, names, rows, pairs)
 
 
-def limit_scene(mass, held, friction=30.0, cohesion=0.0, tension=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81),
-                removed=(), loads=None, push=None):
+def limit_scene(mass, held, friction=None, cohesion=0.0, tension=0.0, density=2600.0, gravity=(0.0, 0.0, -9.81),
+                removed=(), loads=None, push=None, degrees=None):
     """The same blocks and joints as an equilibrium.Scene, for what limit_analysis() does not ask: stress in situ, bolts,
     other live loads. Its bodies are the pieces of the mass, in their order; the push is live there, so that
     stands(live=1) and strength_factor(live=1) have it once.
     """
-    bodies, _, rows, _ = _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push)
+    bodies, _, rows, _ = _parts(mass, held, friction_of(friction, degrees), cohesion, tension, density, gravity, removed,
+                                loads, push)
     return scene_of(bodies, rows)
 
 
 def _parts(mass, held, friction, cohesion, tension, density, gravity, removed, loads, push):
     """Bodies, their names, contacts as rows of scene_of(), and the names of their bodies."""
-    friction = by_set(friction, "friction", 89.9)
     cohesion, tension = by_set(cohesion, "cohesion"), by_set(tension, "tension")
     weight = positive(density, "density") * vector(gravity, "gravity")
     direction = vector((0, 0, 0) if push is None else push, "push")
@@ -57,7 +57,7 @@ def _parts(mass, held, friction, cohesion, tension, density, gravity, removed, l
         apart = -1 not in of and of[0] != of[1] and not (bodies[of[0]].held and bodies[of[1]].held)
         if apart and area > LEAST_SHARE * mass.faces["area"][faces[0]]:
             entry = mass.set_of_face[faces[0]]
-            strength = math.tan(math.radians(friction(entry))), cohesion(entry), tension(entry)
+            strength = friction(entry), cohesion(entry), tension(entry)
             rows.append((of, mass.faces["plane"][faces[0], :3], strength, _shared(mass, faces), float(area),
                          (1.0, 1.0)))
             pairs.append(tuple(numbers[one][0] for one in of))
