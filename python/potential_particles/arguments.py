@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Numbers as a script gives them: each is checked before anything is made of it."""
+import importlib
 import math
 
 import numpy as np
@@ -17,6 +18,15 @@ MANY = 1_000_000
 LARGE = 2**53
 # The library has no particles of more.
 MOST_PLANES = 65_536
+
+
+def needed(module, package):
+    """A module of another package; ImportError that names the package."""
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        raise ImportError(f"this needs the Python package {package}, of which {module} cannot be imported ({error}): "
+                          f"pip install {package}, or Debian's") from None
 
 
 def number(value, name):

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 from . import fitting, mesh_text
-from .arguments import bearable, positive
+from .arguments import bearable, needed, positive
 from .gts_file import read_gts
 from .polyhedron import Polyhedron
 from .rounding import SPHERICITY, Rounding
@@ -104,13 +104,11 @@ def _triangles(points, polygon):
     around = points[polygon] - np.mean(points[polygon], axis=0)
     turns = np.cross(around - np.roll(around, 1, axis=0), np.roll(around, -1, axis=0) - around)
     if (turns @ np.cross(around, np.roll(around, -1, axis=0)).sum(axis=0) < 0.0).any():
-        from vtkmodules.vtkCommonDataModel import vtkPolygon
-        shape = vtkPolygon()
+        shape = needed("vtkmodules.vtkCommonDataModel", "vtk").vtkPolygon()
         for number, point in enumerate(points[polygon]):
             shape.GetPointIds().InsertNextId(number)
             shape.GetPoints().InsertNextPoint(point)
-        from vtkmodules.vtkCommonCore import vtkIdList
-        found = vtkIdList()
+        found = needed("vtkmodules.vtkCommonCore", "vtk").vtkIdList()
         shape.Triangulate(found)
         numbers = [polygon[found.GetId(i)] for i in range(found.GetNumberOfIds())]
         return list(zip(numbers[::3], numbers[1::3], numbers[2::3]))

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Grains of a labelled image of voxels (micro-tomography) as particles that stand where the grains are."""
-import importlib
 import os
 import sys
 import time
@@ -8,7 +7,7 @@ import time
 import numpy as np
 
 from . import fitting
-from .arguments import LARGE, positive, whole
+from .arguments import LARGE, needed, positive, whole
 from .packing import Placement
 from .progress import Bar
 from .polyhedron import Polyhedron
@@ -50,7 +49,7 @@ def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPH
     image = voxel_image(labels)
     spacing, least = positive(spacing, "spacing"), whole(least, 8, LARGE, "least")
     begin, made, left_out, stopped = time.monotonic(), [], {}, ""
-    ndimage = _needed("scipy.ndimage", "scipy")
+    ndimage = needed("scipy.ndimage", "scipy")
     # ndimage.find_objects makes a list as long as the largest label.
     names, shape = None, image.shape
     if image.max() > image.size:
@@ -83,14 +82,6 @@ def from_voxels(labels, spacing=1.0, planes=30, error=None, rounding=None, k=SPH
     return grains
 
 
-def _needed(name, package):
-    try:
-        return importlib.import_module(name)
-    except ImportError:
-        raise ImportError(f"images of grains need the Python package {package}: pip install {package} (in Debian "
-                          f"python3-{'pil' if package == 'Pillow' else package})") from None
-
-
 def _with_bar(boxes, progress):
     bar = Bar(len(boxes), progress, "grains", "fitting")
     try:
@@ -121,7 +112,7 @@ def voxel_image(labels):
 
 def _pages(file):
     """All pages of a .tif file as an array [page, row, column]."""
-    Image, ImageSequence = _needed("PIL.Image", "Pillow"), _needed("PIL.ImageSequence", "Pillow")
+    Image, ImageSequence = needed("PIL.Image", "pillow"), needed("PIL.ImageSequence", "pillow")
     if not os.path.isfile(file):
         raise ValueError(f"{file} is no file")
     try:

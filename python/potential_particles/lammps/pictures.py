@@ -8,8 +8,10 @@ import sys
 
 import numpy as np
 
+from ..arguments import needed
 from ..files import written
 from ..graphics import with_graphics
+from ..polyhedron import rotation
 from .shapes import read_shapes
 
 QUATERNION = [f"d2_orientation[{n}]" for n in (1, 2, 3, 4)]
@@ -33,18 +35,11 @@ def frames(path):
                 yield step, {name: rows[:, n] for n, name in enumerate(columns)}
 
 
-def _rotations(q):
-    w, x, y, z = q
-    return np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                     [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                     [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
-
-
 def polydata(columns, shapes, tolerance=5e-3):
     """Bodies as one vtkPolyData. shapes: the Particle of each type, from type 1; type, id and speed are data of the
     cells.
     """
-    import vtk
+    vtk = needed("vtk", "vtk")
     from vtk.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     points, triangles, owners, first = [], [], [], 0
     meshes = [(mesh.vertices, mesh.triangles) for mesh in (shape.mesh(tolerance) for shape in shapes)]
@@ -52,7 +47,7 @@ def polydata(columns, shapes, tolerance=5e-3):
     q = np.column_stack([columns[c] for c in QUATERNION])
     for i, kind in enumerate(columns["type"].astype(int)):
         vertices, faces = meshes[kind - 1]
-        points.append(x[i] + vertices @ _rotations(q[i]).T)
+        points.append(x[i] + vertices @ rotation(q[i]).T)
         triangles.append(faces.astype(np.int64) + first)
         owners.append(np.full(len(faces), i))
         first += len(vertices)
@@ -80,7 +75,7 @@ def write_vtk(dump, shapes, stem):
     """Writes stem.STEP.vtp for each frame of a dump, and stem.pvd, which ParaView opens. shapes: the Particle of each
     type.
     """
-    import vtk
+    vtk = needed("vtk", "vtk")
     entries = []
     for step, columns in frames(dump):
         name = f"{stem}.{step:010d}.vtp"
@@ -100,7 +95,7 @@ def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(
     """The last (or another) frame of a dump as a PNG. mesh: an STL file, drawn transparent, turned about y by
     `mesh_turn` degrees.
     """
-    import vtk
+    vtk = needed("vtk", "vtk")
     step, columns = list(frames(dump))[frame]
     renderer = vtk.vtkRenderer()
     renderer.SetBackground(1, 1, 1)
@@ -141,7 +136,7 @@ def write_picture(dump, shapes, file, mesh=None, mesh_turn=0.0, frame=-1, view=(
 
 
 def _save(window, renderer, file, zoom, pixels):
-    import vtk
+    vtk = needed("vtk", "vtk")
     # Drawn at twice the size and halved: there are no samples between pixels in such a window.
     window.SetSize(2 * pixels[0], 2 * pixels[1])
     window.AddRenderer(renderer)
