@@ -9,7 +9,7 @@ from collections import Counter
 
 import numpy as np
 import potential_particles
-from potential_particles import add_packing, boundaries, pack, packing, shapes
+from potential_particles import add_packing, boundaries, pack, packing, progress, shapes
 from harness import *
 
 check = Checks()
@@ -87,7 +87,7 @@ check.equal((len(quiet_one), said), (3, ""), "without progress nothing is printe
 
 # Ctrl-C keeps what has its place, and is Python's own again afterwards.
 before = signal.getsignal(signal.SIGINT)
-original = packing._Report.update
+original = progress.Bar.reached
 
 
 def interrupt(self, count):
@@ -95,16 +95,16 @@ def interrupt(self, count):
         os.kill(os.getpid(), signal.SIGINT)
 
 
-packing._Report.update = interrupt
+progress.Bar.reached = interrupt
 some, said = quiet(box, rocks, number=500, dense=True)
-packing._Report.update = original
+progress.Bar.reached = original
 check.true(20 <= len(some) < 100 and "stopped by Ctrl-C" in said, f"{len(some)} bodies; {said}")
 check.equal(signal.getsignal(signal.SIGINT), before, "the handler of Ctrl-C")
 
 # What is raised while bodies are handed over comes out.
-packing._Report.update = lambda self, count: 1 / 0
+progress.Bar.reached = lambda self, count: 1 / 0
 check.raises(ZeroDivisionError, lambda: quiet(box, rocks, number=5), "an error in between")
-packing._Report.update = original
+progress.Bar.reached = original
 
 O.reset()
 for arguments, keywords, says in [
