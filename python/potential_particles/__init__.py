@@ -21,6 +21,8 @@ __version__ = "0.2.0"
 # Parts for YADE may be installed elsewhere than a wheel.
 __path__ = pkgutil.extend_path(__path__, __name__)
 
+IN_YADE = "yade" in sys.modules or importlib.util.find_spec("yade") is not None
+
 from . import equilibrium, packing, rock, shapes  # noqa: E402
 from ._core import (  # noqa: E402
     FAILED,
@@ -105,7 +107,7 @@ __all__ = [
 ]
 
 
-if ("yade" in sys.modules or importlib.util.find_spec("yade")) and importlib.util.find_spec(".yade", __name__):
+if IN_YADE and importlib.util.find_spec(".yade", __name__):
     from .yade import *  # noqa: F401, F403
     from .yade import __all__ as _of_yade, _glue  # noqa: F401
 

@@ -9,6 +9,7 @@ import numpy as np
 class SceneWarning(UserWarning):
     """What is allowed and may surprise: shapes that lose volume, and, in YADE, what check() finds."""
 
+
 # Of what a script gives. Fifth powers of lengths, as moments of inertia are, and what is made of a few of them, are
 # doubles with all their digits.
 LEAST, MOST = 1e-50, 1e50

@@ -3,6 +3,7 @@
 arrows and as displaced blocks.
 """
 import dataclasses
+import os
 
 import numpy as np
 
@@ -26,6 +27,21 @@ class Block:
     def moved(self, way):
         """Faces after this way, to first order."""
         return [face + way * (self.linear + np.cross(self.angular, face - self.centre)) for face in self.faces]
+
+
+def plot(found, blocks, file, towards):
+    """Draws an answer of limit analysis (a limit_state.Equilibrium) for these blocks to a PNG, PDF or SVG."""
+    stands = "it stands" if found.question == "stands" else f"factor {found.factor:.4g}"
+    used = found.used[found.contact_of_corner]
+    save([(stands if found.stands else "it falls", blocks, found.corners, found.forces, used)], file, towards)
+
+
+def save(answers, file, towards):
+    """The picture of these answers, written to a file whole or not at all."""
+    from .files import written
+    drawn = picture(answers, towards, width=8)
+    with written(file) as out:
+        drawn.savefig(out, dpi=110, format=os.path.splitext(file)[1][1:] or None)
 
 
 def picture(answers, towards=(0, -1, 0), width=5.5):

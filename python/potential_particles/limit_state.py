@@ -75,12 +75,10 @@ def solved(question, dilatant, bodies, names, rows, pairs):
     """The Equilibrium of rigid bodies with these names, bodies and rows as of scene_of(); pairs: the names of the bodies
     of each contact.
     """
-    if question != "load":
-        for body in bodies:
-            for dead, live in ((body.dead_force, body.live_force), (body.dead_torque, body.live_torque)):
-                dead[:], live[:] = [one + other for one, other in zip(dead, live)], (0.0, 0.0, 0.0)
     scene = scene_of(bodies, rows)
-    found = getattr(scene, QUESTIONS[question])(dilatant=bool(dilatant))
+    # Of the other questions live loads are there once.
+    how = {} if question == "load" else {"live": 1.0}
+    found = getattr(scene, QUESTIONS[question])(dilatant=bool(dilatant), **how)
     # No rows of what does not exist.
     corners, forces, velocities = scene.corners, np.zeros((len(scene.corners), 3)), np.zeros((len(bodies), 6))
     forces[:len(found.forces)], velocities[:len(found.mechanism)] = found.forces, found.mechanism

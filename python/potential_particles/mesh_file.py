@@ -81,19 +81,23 @@ def _once(points, polygons):
     """Points of which those within about 1e-7 of the extent of the body are one, the first, and polygons as triangles
     of three different points.
     """
+    # Equal points first, which files of triangles are full of.
+    _, first, equal = np.unique(points, axis=0, return_index=True, return_inverse=True)
+    distinct, near = points[first], first.copy()
     size = SAME * np.ptp(points, axis=0).max()
-    first = np.arange(len(points))
     # Of two points as near as that one of eight grids, shifted by half a cell, has both in one cell.
-    for shift in np.ndindex(2, 2, 2):
-        if size > 0.0:
-            cells = np.floor((points - points.min(0)) / (2.0 * size) + 0.5 * np.array(shift))
-            _, of_cell = np.unique(cells, axis=0, return_inverse=True)
-            least = np.full(len(points), len(points))
-            np.minimum.at(least, of_cell.ravel(), first)
-            first = least[of_cell.ravel()]
+    for shift in np.ndindex(2, 2, 2) if size > 0.0 else ():
+        cells = np.floor((distinct - points.min(0)) / (2.0 * size) + 0.5 * np.array(shift))
+        _, of_cell = np.unique(cells, axis=0, return_inverse=True)
+        least = np.full(len(distinct), len(points))
+        np.minimum.at(least, of_cell.ravel(), near)
+        near = least[of_cell.ravel()]
+    first = near[equal.ravel()]
     kept, places = np.unique(first, return_inverse=True)
-    corners = itertools.chain.from_iterable(_triangles(points, polygon) for polygon in polygons)
-    triangles = places.ravel()[np.fromiter(corners, np.dtype((np.int64, 3)))]
+    if not isinstance(polygons, np.ndarray):  # which are triangles
+        corners = itertools.chain.from_iterable(_triangles(points, polygon) for polygon in polygons)
+        polygons = np.fromiter(corners, np.dtype((np.int64, 3)))
+    triangles = places.ravel()[polygons]
     return points[kept], triangles[(triangles != np.roll(triangles, 1, axis=1)).all(axis=1)]
 
 

@@ -15,9 +15,12 @@ import sys
 import time
 import typing
 
+import numpy as np
+
 from ._core import Pose, _packing
 from .arguments import number as finite
 from .arguments import LARGE, MANY, positive, rows, vector, whole
+from .polyhedron import rotation
 from .progress import Bar, Interrupts
 
 __all__ = ["Box", "Cylinder", "Placement", "pack", "volume_between"]
@@ -39,8 +42,9 @@ class Cylinder(typing.NamedTuple):
 
 
 class Placement(typing.NamedTuple):
-    """One body of a packing: particle and pose are for detect(); in YADE
-    body(shape.scaled(scale), material, position, orientation) makes a body of it."""
+    """One body of a packing: particle and pose are for detect(); in YADE body(shape.scaled(scale), material, position,
+    orientation) makes a body of it.
+    """
 
     shape: object
     scale: float
@@ -55,7 +59,7 @@ class Placement(typing.NamedTuple):
     @property
     def pose(self):
         """The Pose of the particle."""
-        return Pose(_centroid(self), _product(self.orientation, tuple(self.shape.orientation)))
+        return Pose(_centroid(self), _product(self.orientation, self.shape.orientation))
 
 
 def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None,
@@ -155,30 +159,19 @@ def _placement(shape, scale, position, orientation):
     """In the frame in which the shape was built, from the pose of its centroid and principal axes."""
     w, x, y, z = shape.orientation
     to_frame = _product(orientation, (w, -x, -y, -z))
-    shift = _turned(to_frame, [scale * one for one in shape.centroid])
-    return Placement(shape, scale, tuple(one - other for one, other in zip(position, shift)), to_frame)
+    origin = position - rotation(to_frame) @ shape.centroid * scale
+    return Placement(shape, scale, tuple(origin.tolist()), to_frame)
 
 
 def _centroid(placement):
-    shift = _turned(placement.orientation, [placement.scale * one for one in placement.shape.centroid])
-    return [one + other for one, other in zip(placement.position, shift)]
+    return placement.position + rotation(placement.orientation) @ placement.shape.centroid * placement.scale
 
 
 def _product(first, second):
     """Of two quaternions w, x, y, z."""
     (a, *u), (b, *v) = first, second
-    across = _cross(u, v)
-    return (a * b - sum(p * q for p, q in zip(u, v)), *(a * q + b * p + c for p, q, c in zip(u, v, across)))
-
-
-def _turned(orientation, vector):
-    w, *axis = orientation
-    once = [2.0 * one for one in _cross(axis, vector)]
-    return [v + w * o + t for v, o, t in zip(vector, once, _cross(axis, once))]
-
-
-def _cross(a, b):
-    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+    u, v = np.array(u), np.array(v)
+    return (float(a * b - u @ v), *(a * v + b * u + np.cross(u, v)).tolist())
 
 
 class _Report:

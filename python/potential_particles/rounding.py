@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """How edges and corners are rounded, as a script says it: r as a length or as a share of the size.
 
-The size is the diameter of the largest ball that fits inside the sharp body. How the planes of the particle follow from
-its
-faces: src/shapes/rounding.rs.
+The size is the diameter of the largest ball that fits inside the sharp body. How the planes of the particle follow
+from its faces: src/shapes/rounding.rs.
 """
 import functools
 import math
@@ -54,7 +53,6 @@ class Rounding(typing.NamedTuple):
             raise ValueError(f"rounding={share:g} is a share of the size and must lie between 0 and 0.5 "
                              "(for a sphere use sphere(radius))")
         return size * share, k, R
-
 
     def told_of(self, shape):
         """The shape, with a SceneWarning if the shadow sphere of a given R cuts off a part of it."""

@@ -317,6 +317,10 @@ class Packings(unittest.TestCase):
         bodies = [one.shape.scaled(one.scale) for one in placed]
         poses = [pp.Pose(np.add(one.position, pp.Pose((0, 0, 0), one.orientation).rotation @ shape.centroid),
                          product(one.orientation, shape.orientation)) for one, shape in zip(placed, bodies)]
+        for one, body, pose in zip(placed, bodies, poses):
+            self.assertEqual(one.particle, body.particle)
+            np.testing.assert_allclose(one.pose.position, pose.position, rtol=0, atol=1e-12)
+            np.testing.assert_allclose(one.pose.rotation, pose.rotation, rtol=0, atol=1e-12)
         for i in range(30):
             for j in range(i):
                 self.assertFalse(pp.detect(bodies[i].particle, poses[i], bodies[j].particle, poses[j]).overlapping)

@@ -27,9 +27,9 @@ def frames(path):
                 count = int(file.readline())
             elif line.startswith("ITEM: ATOMS"):
                 columns = line.split()[2:]
-                for needed in ["id", "type", "x", "y", "z"] + QUATERNION:
-                    if needed not in columns:
-                        raise ValueError(f"{path}: the dump has no column {needed}: dump it with custom")
+                for column in ["id", "type", "x", "y", "z"] + QUATERNION:
+                    if column not in columns:
+                        raise ValueError(f"{path}: the dump has no column {column}: dump it with custom")
                 rows = np.array([file.readline().split() for _ in range(count)], float).reshape(count, len(columns))
                 rows = rows[np.argsort(rows[:, columns.index("id")])]
                 yield step, {name: rows[:, n] for n, name in enumerate(columns)}

@@ -58,8 +58,8 @@ def _axes(inertia):
 
 
 def write_shapes(path, shapes):
-    """shapes: {name: Particle or Shape}. Each is written about its centre of mass and in principal axes; returns {name: (centre,
-    rotation)}, in the old frame.
+    """shapes: {name: Particle or Shape}. Each is written about its centre of mass and in principal axes; returns {name:
+    (centre, rotation)}, in the old frame.
     """
     frames = {}
     with written(path, text=True) as file:

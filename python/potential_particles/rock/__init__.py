@@ -13,6 +13,7 @@ docs/rock.md leads from a scanline to a result.
 import importlib.util
 import pkgutil
 
+from .. import IN_YADE
 from ..limit_state import Equilibrium
 from .block_theory import COLOURS, KeyBlock, key_blocks, summary
 from .domain import Domain
@@ -33,7 +34,7 @@ __all__ = [
 ]
 _OF_YADE = ["JointRecorder", "apply_loads", "bodies", "excavate", "joint_engine", "joint_table"]
 
-if importlib.util.find_spec("yade") and importlib.util.find_spec(".scene", __name__):
+if IN_YADE and importlib.util.find_spec(".scene", __name__):
     from .scene import apply_loads, bodies, excavate, joint_engine
     from .surfaces import JointRecorder, joint_table
 

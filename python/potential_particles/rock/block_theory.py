@@ -219,10 +219,11 @@ def friction_of(friction, degrees):
     if friction is None:
         angle = by_set(USUAL if degrees is None else degrees, "degrees", 89.9)
         return lambda entry: math.tan(math.radians(angle(entry)))
-    for one in friction.values() if isinstance(friction, dict) else [friction]:
-        if isinstance(one, (int, float)) and one > STEEPEST:
-            raise ValueError(f"friction={one:g} is a coefficient, the tangent of an angle: give degrees={one:g}")
-    return by_set(friction, "friction")
+    tangent = by_set(friction, "friction")
+    largest = max(friction.values()) if isinstance(friction, dict) else friction
+    if largest > STEEPEST:
+        raise ValueError(f"friction={largest:g} is a coefficient, the tangent of an angle: give degrees={largest:g}")
+    return tangent
 
 
 def by_set(given, name, most=math.inf):

@@ -1,11 +1,9 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Pictures of a rock mass: its key blocks, and an answer of limit analysis."""
-import os
-
 import numpy as np
 
-from ..equilibrium_picture import Block, STONE, picture
-from ..files import written
+from .. import equilibrium_picture
+from ..equilibrium_picture import Block, STONE
 from .mass import marked
 
 
@@ -33,11 +31,7 @@ def plot(mass, file, keys=(), found=None, held=(), removed=(), towards=(0.8, -0.
     if (held | gone).all():
         raise ValueError("all blocks are held or removed: none is left to be drawn")
     if found is None:
-        title, at, forces, used = f"{len(mass):,} blocks", np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0)
+        nothing = np.zeros((0, 3))
+        equilibrium_picture.save([(f"{len(mass):,} blocks", blocks, nothing, nothing, np.zeros(0))], file, towards)
     else:
-        stands = "it stands" if found.question == "stands" else f"factor {found.factor:.4g}"
-        title = stands if found.stands else "it falls"
-        at, forces, used = found.corners, found.forces, found.used[found.contact_of_corner]
-    drawn = picture([(title, blocks, at, forces, used)], towards, width=8)
-    with written(file) as out:
-        drawn.savefig(out, dpi=110, format=os.path.splitext(file)[1][1:] or None)
+        equilibrium_picture.plot(found, blocks, file, towards)

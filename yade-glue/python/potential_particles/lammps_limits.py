@@ -4,11 +4,11 @@ script can act.
 """
 import warnings
 
+from .arguments import SceneWarning
 from .bodies import is_free, lasting
 
 
 def warn(text):
-    from .arguments import SceneWarning
     warnings.warn_explicit(f"potential_particles: to_lammps: {text}", SceneWarning, "potential_particles", 0)
 
 

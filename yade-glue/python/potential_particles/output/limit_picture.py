@@ -1,13 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The picture of an answer of limit_analysis() for the bodies of YADE's scene."""
-import os
-
 import numpy as np
 import yade
 
+from .. import equilibrium_picture
 from ..bodies import is_free, owner
-from ..equilibrium_picture import Block, picture
-from ..files import written
+from ..equilibrium_picture import Block
 from ..limit_state import clipped
 from .drawn import ShapeMeshes
 from .mesh import rotation_matrix
@@ -36,13 +34,7 @@ def plot_equilibrium(found, file, towards=None):
     blocks = [block for block in blocks if block.faces]
     if not any(not block.held for block in blocks):
         raise ValueError("no free body of the answer can be drawn")
-    title = "it stands" if found.question == "stands" else f"factor {found.factor:.4g}"
-    title = title if found.stands else "it falls"
-    used = found.used[found.contact_of_corner]
-    drawn = picture([(title, blocks, found.corners, found.forces, used)],
-                    _side(blocks) if towards is None else towards, width=8)
-    with written(file) as out:
-        drawn.savefig(out, dpi=110, format=os.path.splitext(file)[1][1:] or None)
+    equilibrium_picture.plot(found, blocks, file, _side(blocks) if towards is None else towards)
 
 
 def _block(body, velocities, meshes):
