@@ -37,8 +37,8 @@ pub struct SurfaceMesh {
 #[allow(missing_docs)]
 pub enum MeshError {
     #[error(
-        "mesh tolerance {0:?} is outside [1e-5, 1], in the plane [1e-9, 1]: give the distance to the surface over the radius of the \
-         particle"
+        "mesh tolerance {0:?} is outside [1e-5, 1], in the plane [1e-9, 1]: give the distance to the surface over the \
+         radius of the particle"
     )]
     Tolerance(f64),
     #[error("a ray from the centre finds no surface: scale the particle to a size near 1")]

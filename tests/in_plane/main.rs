@@ -8,6 +8,7 @@ mod polygon;
 mod properties;
 
 use body::{Body, circle, midway, solve};
+use kit::balls;
 use nalgebra::Vector3;
 use potential_particles::{BackEnd, Formulation, Kind, PairState, Particle, ParticleError, Pose, PoseError};
 use potential_particles::{Role, Section, Settings, closest_point, detect};
@@ -15,39 +16,9 @@ use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, SQRT_2};
 
 #[test]
 fn circles_match_their_closed_form() {
-    let (ra, rb) = (2.0, 0.5);
-    let (a, b) = (circle(ra), circle(rb));
-    let n = Vector3::new(-0.6, 0.8, 0.0);
-    for back_end in [BackEnd::Fast, BackEnd::ConeProgram] {
-        for distance in [2.2, 2.5 - 1e-6, 2.5 + 1e-6, 3.0] {
-            let at_a = Pose::in_plane([1.0, 2.0], -0.7).unwrap();
-            let centre: Vector3<f64> = at_a.position() + distance * n;
-            let at_b = Pose::in_plane([centre.x, centre.y], 12.0).unwrap();
-            let settings = Settings::default().with_back_end(back_end).with_solve_separated(true);
-            let contact = detect(&a, &at_a, &b, &at_b, &settings, None).unwrap();
-            let accuracy = if back_end == BackEnd::Fast { 1e-14 } else { 1e-7 };
-            // Both scaled by s the circles touch: s (ra + rb) = distance.
-            assert!((contact.s - distance / (ra + rb)).abs() < accuracy, "{back_end:?}: s = {}", contact.s);
-            assert_eq!(contact.kind == Kind::Overlapping, distance < ra + rb);
-            assert!((contact.normal - n).norm() < 10.0 * accuracy);
-            let off = (contact.branch_a - n * distance * ra / (ra + rb)).norm();
-            assert!(off < 10.0 * accuracy && off <= contact.point_bound, "{off:e}, bound {:e}", contact.point_bound);
-            if distance < ra + rb {
-                assert!((contact.overlap - (ra + rb - distance)).abs() < 10.0 * accuracy);
-                assert!((contact.point_on_a - at_a.position() - ra * n).norm() < 10.0 * accuracy);
-                assert!((contact.point_on_b - at_b.position() + rb * n).norm() < 10.0 * accuracy);
-            } else {
-                assert!(contact.overlap.is_nan() && contact.point_on_a.x.is_nan());
-            }
-            let settings = settings.with_formulation(Formulation::Closest);
-            let contact = detect(&a, &at_a, &b, &at_b, &settings, None).unwrap();
-            assert!((contact.s - (distance - rb) / ra).abs() < accuracy);
-            if distance < ra + rb {
-                assert!((contact.s_b - (distance - ra) / rb).abs() < 10.0 * accuracy);
-                assert!((contact.point - at_a.position() - 0.5 * (ra + distance - rb) * n).norm() < 10.0 * accuracy);
-            }
-        }
-    }
+    let at_a = Pose::in_plane([1.0, 2.0], -0.7).unwrap();
+    let at_b = |centre: Vector3<f64>| Pose::in_plane([centre.x, centre.y], 12.0).unwrap();
+    balls::match_their_closed_form(circle, Vector3::new(-0.6, 0.8, 0.0), &at_a, at_b, 1e-6);
 }
 
 #[test]
