@@ -160,11 +160,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
                                     const State& state1, const State& state2, const Vector3r& shift2,
                                     const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
-    const bool real = interaction->hasGeomAndPhys();
-    try {
-        const AcceptedSettings& settings = *accepted.get();
-        Counters::Row& counts = counters.ofThisThread();
-        const Stopwatch stopwatch(counts, settings.given.measureTime);
+    return served(state1, state2, shift2, force, interaction, nullptr, [&](const PairInScene& of) {
         const BodyInStep *body1 = nullptr, *body2 = nullptr;
         PairInStep* known = nullptr;
         // A periodic image moves by itself.
@@ -174,59 +170,35 @@ bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const b
             known = body1 && body2 && body1->particle && body2->particle ? step->pair(*interaction) : nullptr;
             if (known) {
                 step->fetchAhead(static_cast<std::size_t>(interaction->linIx));
-                if (!real && !force && known->isOf(interaction) && known->sleeps(body1->way, body2->way)) {
-                    counts.add(Count::calls);
-                    counts.add(Count::motion);
+                if (!of.real && !force && known->isOf(interaction) && known->sleeps(body1->way, body2->way)) {
+                    countSleeping(of.counts, 1);
                     return false;
                 }
             }
         }
-        Pair pair {
-            { state1, state2, shift2, force, interaction, counts, settings, real }, cm1, cm2, body1, body2, known
-        };
+        Pair pair { of, cm1, cm2, body1, body2, known };
         return answer(pair);
-    } catch (const std::exception& error) {
-        fail(*interaction, state1, state2, shift2, error.what());
-    } catch (...) {
-        fail(*interaction, state1, state2, shift2, "unknown error");
-    }
-    return real || (force && interaction->geom);
+    });
 }
 
 bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2,
                                           PairInStep& pairInStep,
                                           const boost::shared_ptr<Interaction>& interaction) noexcept
 {
-    const bool real = interaction->hasGeomAndPhys();
     const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
-    const State &state1 = *body1.state, &state2 = *body2.state;
     const Vector3r shift2 = Vector3r::Zero();
-    try {
-        const AcceptedSettings& settings = *accepted.get();
-        const Stopwatch stopwatch(counts, settings.given.measureTime);
-        step.look(body1, cm1, state1);
-        step.look(body2, cm2, state2);
+    return served(*body1.state, *body2.state, shift2, false, interaction, &counts, [&](const PairInScene& of) {
+        step.look(body1, cm1, of.state1);
+        step.look(body2, cm2, of.state2);
         PairInStep* const known = body1.particle && body2.particle ? &pairInStep : nullptr;
-        // Of bodies that were not looked at before.
-        if (known && !real && known->sleeps(body1.way, body2.way)) {
-            counts.add(Count::calls);
-            counts.add(Count::motion);
+        // The bodies may not have been looked at before.
+        if (known && !of.real && known->sleeps(body1.way, body2.way)) {
+            countSleeping(counts, 1);
             return false;
         }
-        Pair pair { { state1, state2, shift2, false, interaction, counts, settings, real },
-                    cm1,
-                    cm2,
-                    &body1,
-                    &body2,
-                    known,
-                    true };
+        Pair pair { of, cm1, cm2, &body1, &body2, known, true };
         return answer(pair);
-    } catch (const std::exception& error) {
-        fail(*interaction, state1, state2, shift2, error.what());
-    } catch (...) {
-        fail(*interaction, state1, state2, shift2, "unknown error");
-    }
-    return real;
+    });
 }
 
 void Ig2_ConicPP_ConicPP_ScGeom::countSleeping(Counters::Row& counts, std::uint64_t pairs)

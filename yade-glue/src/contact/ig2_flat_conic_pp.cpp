@@ -37,42 +37,22 @@ bool Ig2_Flat_ConicPP::go(const boost::shared_ptr<Shape>& cm1, const boost::shar
                           const State& state2, const Vector3r& shift2, const bool& force,
                           const boost::shared_ptr<Interaction>& interaction) noexcept
 {
-    const bool real = interaction->hasGeomAndPhys();
-    try {
-        const AcceptedSettings& settings = *accepted.get();
-        Counters::Row& counts = counters.ofThisThread();
-        const Stopwatch stopwatch(counts, settings.given.measureTime);
-        FlatPair pair { { state1, state2, shift2, force, interaction, counts, settings, real }, *cm1 };
+    return served(state1, state2, shift2, force, interaction, nullptr, [&](const PairInScene& of) {
+        FlatPair pair { of, *cm1 };
         return answer(pair, cm2);
-    } catch (const std::exception& error) {
-        fail(*interaction, state1, state2, shift2, error.what());
-    } catch (...) {
-        fail(*interaction, state1, state2, shift2, "unknown error");
-    }
-    return real || (force && interaction->geom);
+    });
 }
 
 bool Ig2_Flat_ConicPP::goInLoop(Step& step, Counters::Row& counts, BodyInStep& body1, BodyInStep& body2,
                                 PairInStep& pairInStep, const boost::shared_ptr<Interaction>& interaction) noexcept
 {
-    const bool real = interaction->hasGeomAndPhys();
-    const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
-    const State &state1 = *body1.state, &state2 = *body2.state;
     const Vector3r shift2 = Vector3r::Zero();
-    try {
-        const AcceptedSettings& settings = *accepted.get();
-        const Stopwatch stopwatch(counts, settings.given.measureTime);
-        step.look(body2, cm2, state2);
+    return served(*body1.state, *body2.state, shift2, false, interaction, &counts, [&](const PairInScene& of) {
+        step.look(body2, *body2.shape, of.state2);
         const bool waysAreKnown = body1.flat.kind != Flat::Kind::none && body2.particle;
-        FlatPair pair { { state1, state2, shift2, false, interaction, counts, settings, real }, *cm1, &body1, &body2,
-                        waysAreKnown ? &pairInStep : nullptr };
-        return answer(pair, cm2);
-    } catch (const std::exception& error) {
-        fail(*interaction, state1, state2, shift2, error.what());
-    } catch (...) {
-        fail(*interaction, state1, state2, shift2, "unknown error");
-    }
-    return real;
+        FlatPair pair { of, **body1.shape, &body1, &body2, waysAreKnown ? &pairInStep : nullptr };
+        return answer(pair, *body2.shape);
+    });
 }
 
 bool Ig2_Flat_ConicPP::answer(FlatPair& pair, const boost::shared_ptr<Shape>& shape2)

@@ -9,6 +9,7 @@
 
 #include "contact_settings.hpp"
 #include "counters.hpp"
+#include "ig2_conic_pp.hpp"
 #include "particle/particle.hpp"
 #include "pair/sc_geom_conic_pp.hpp"
 
@@ -124,5 +125,25 @@ struct PairInScene {
     // The normal of the last step, or the line of centres (a law may have zeroed the former).
     yade::Vector3r lastNormal() const { return isUnit(geom->normal) ? geom->normal : directionOf(branch()); }
 };
+
+template <class Answer>
+bool Ig2_ConicPP_ConicPP_ScGeom::served(const yade::State& state1, const yade::State& state2,
+                                        const yade::Vector3r& shift2, bool force,
+                                        const boost::shared_ptr<yade::Interaction>& interaction, Counters::Row* counts,
+                                        Answer answer) noexcept
+{
+    const bool real = interaction->hasGeomAndPhys();
+    try {
+        const AcceptedSettings& settings = *accepted.get();
+        Counters::Row& row = counts ? *counts : counters.ofThisThread();
+        const Stopwatch stopwatch(row, settings.given.measureTime);
+        return answer(PairInScene { state1, state2, shift2, force, interaction, row, settings, real });
+    } catch (const std::exception& error) {
+        fail(*interaction, state1, state2, shift2, error.what());
+    } catch (...) {
+        fail(*interaction, state1, state2, shift2, "unknown error");
+    }
+    return real || (force && interaction->geom);
+}
 
 } // namespace potential_particles
