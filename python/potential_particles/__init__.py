@@ -62,6 +62,7 @@ from ._core import (  # noqa: E402
     patch_on_triangle,
     pose_type,
 )
+from .materials import MATERIALS, suggest  # noqa: E402
 
 __all__ = [
     "FAILED",
@@ -74,6 +75,7 @@ __all__ = [
     "ContactError",
     "ContactGradient",
     "FlatContact",
+    "MATERIALS",
     "MassProperties",
     "PairState",
     "Particle",
@@ -104,6 +106,7 @@ __all__ = [
     "pose_type",
     "rock",
     "shapes",
+    "suggest",
 ]
 
 

@@ -491,6 +491,32 @@ check.equal(O.dt, last, "nothing moves: it stays")
 check.raises(ValueError, lambda: potential_particles.time_stepper(period=0), "no period", "period")
 check.raises(ValueError, lambda: potential_particles.time_stepper(safety=2), "beyond the limit", "safety=2")
 
+# --- overlap and time step that a material is suggested for ----------------------------------------
+
+for seed in (1, 3):
+    O.reset()
+    start = potential_particles.suggest("rock", size=0.1, fall=0.6)
+    O.materials.append(w.FrictMat(**start.frict_mat()))
+    O.bodies.append(utils.wall(0, axis=2, sense=1))
+    rock = potential_particles.shapes.random_rock(seed=seed, size=0.1)
+    O.bodies.append(potential_particles.body(rock, position=(0, 0, 0.12)))
+    O.bodies[1].state.vel = (0, 0, -(2 * 9.81 * 0.6) ** 0.5)
+    O.engines = [
+        w.ForceResetter(),
+        w.InsertionSortCollider([w.PotentialParticle2AABB(), w.Bo1_Wall_Aabb()], verletDist=0),
+        w.InteractionLoop([w.Ig2_Wall_ConicPP_ScGeom()], [w.Ip2_FrictMat_FrictMat_FrictPhys()],
+                          [w.Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
+        w.NewtonIntegrator(damping=0, exactAsphericalRot=True),
+    ]
+    O.dt = potential_particles.critical_time_step()
+    check.true(0.5 < O.dt / start.time_step < 2, f"suggested time step {start.time_step}, of the scene {O.dt}")
+    O.dt /= 5
+    most = 0.0
+    while O.iter < 4000 and O.bodies[1].state.vel[2] < 1:
+        O.step()
+        most = max([most, *(one.geom.penetrationDepth for one in O.interactions)])
+    check.close(most / start.largest_overlap, 1.0, 0.02, "largest overlap of a rock that lands on a corner")
+
 # Each tool of the pages' tables is measured above, each law in torque_error, or is known to do nothing (test_tools).
 pages = [(TOP / "docs" / name).read_text() for name in ("laboratory.md", "laws.md")]
 tested = Path(TOP / "tests/yade/test_laboratory.py").read_text()
