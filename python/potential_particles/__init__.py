@@ -63,6 +63,7 @@ from ._core import (  # noqa: E402
     pose_type,
 )
 from .materials import MATERIALS, suggest  # noqa: E402
+from .movie import movie  # noqa: E402
 
 __all__ = [
     "FAILED",
@@ -98,6 +99,7 @@ __all__ = [
     "detect",
     "detect_batch",
     "equilibrium",
+    "movie",
     "packing",
     "patch_derivatives",
     "patch_of_contact",

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Meshes against the shape, pictures against what must be seen in them, and recorded frames against the scene."""
+import math
 import os
 import tempfile
 import warnings
@@ -10,9 +11,10 @@ from yade import Body, FrictMat, Vector3, utils
 import potential_particles
 from potential_particles import shapes
 from harness import Checks, O, cube, joint_scene, plain, pyramid, pyramid_planes, run, turned
-from potential_particles.output import vtk_files
-from potential_particles.output import picture
-from potential_particles.output.drawn import ShapeMeshes, drawn, edges
+from matplotlib.image import imread
+from potential_particles.output import picture, values, vtk_files
+from potential_particles.output.drawn import ShapeMeshes, corners_of, drawn, edges
+from potential_particles.output.mesh import mesh
 from potential_particles.output.patches import patches
 
 import yade
@@ -302,6 +304,11 @@ def test_recorder():
     check.true(
         np.allclose(bodies["velocity"][of], state.vel) and np.allclose(bodies["angular_velocity"][of], state.angVel),
         "with their velocities")
+    stress = potential_particles.body_stresses()[ids["pyramid"]]
+    check.close(np.abs(bodies["stress"][of][0] - np.array([stress[i, j] for i in range(3) for j in range(3)])).max(), 0.0,
+                1e-9 * max(1.0, abs(stress[2, 2])), f"and stress {stress}")
+    check.close(np.abs(bodies["colour"][of][0] - np.array(O.bodies[ids["pyramid"]].shape.color)).max(), 0.0, 1e-12,
+                "and colour")
     points = bodies["points"][bodies["triangles"][of]].reshape(-1, 3) - np.array(state.pos)
     local = points @ np.array(state.ori.toRotationMatrix())
     worst = max(
@@ -450,6 +457,84 @@ def test_picture_of_patches():
     check.true(100 < rows.mean() < 200, f"between them: {rows.mean()}")
 
 
+def leading(image, channel, column):
+    """Share of the coloured pixels left of a column in which one channel leads."""
+    part = image[:, :column, :3]
+    coloured = np.ptp(part, axis=2) > 0.25
+    return (part[coloured].argmax(1) == channel).mean()
+
+
+def test_colours_by_values():
+    O.reset()
+    O.materials.append(FrictMat())
+    for x in (0, 2, 4):
+        add(cube(), (x, 0, 0), (1, 1, 1))
+        O.bodies[-1].state.vel = (0, 0, 0.01 * x)
+        O.bodies[-1].state.refPos, O.bodies[-1].state.pos = (x, 0, 0), (x, 0, 0.1 * x)
+    O.bodies.append(utils.wall(-0.6, axis=2))
+    numbers, name, unit = values.of_bodies("velocity", [O.bodies[i] for i in range(3)])
+    check.equal((numbers.tolist(), unit), ([0.0, 0.02, 0.04], "m/s"), f"{name}")
+    check.close(values.of_bodies("displacement", [O.bodies[2]])[0][0], 0.4, 1e-12, "displacement from refPos")
+    seen = []
+    for given in ("velocity", [0, 1, 2], {0: 0, 1: 1, 2: 2}):
+        potential_particles.plot(path("by.png"), towards=(0, -1, 0.2), size=(400, 200), colour=given, label="order")
+        seen.append(imread(path("by.png"))[:, :280])
+    # From dark blue to yellow: left, blue leads; right, it does not.
+    blue = [leading(seen[0], 2, 90), leading(seen[0][:, 190:], 2, 90)]
+    check.true(blue[0] > 0.9 and blue[1] < 0.1, f"bodies by speed: share of blue {blue}")
+    check.close(np.abs(seen[1] - seen[0]).max(), 0.0, 0.02, "an array of the same order draws the same")
+    check.equal(np.abs(seen[1] - seen[2]).max(), 0.0, "and so do numbers by ids")
+    for given, word in (("speed", "there are velocity, displacement, stress"), ([1, 2], "each of the 3 bodies"),
+                        ({0: 1.0}, "no number for body 1"), ([1, 2, math.nan], "must be finite")):
+        check.raises(ValueError, lambda: potential_particles.plot(path("by.png"), colour=given), f"colour {given}", word)
+    potential_particles.plot(path("by.png"), towards=(0, -1, 0), size=(400, 200), up=(1, 0, 0), colour=[0, 1, 2])
+    image = imread(path("by.png"))[:, :280]
+    yellow = ((image[..., 0] - image[..., 2] > 0.3) & (image[..., 1] > 0.5)).nonzero()[0].mean()
+    violet = (image[..., 2] - image[..., 1] > 0.2).nonzero()[0].mean()
+    check.true(yellow < violet, f"up=(1, 0, 0): the last body is above, in row {yellow:.0f} against {violet:.0f}")
+
+
+def test_scale_bar():
+    O.reset()
+    O.materials.append(FrictMat())
+    add(cube(half=0.5), (0, 0, 0), (1, 0, 0))
+    potential_particles.plot(path("bar.png"), towards=(0, -1, 0), size=(400, 400), scale_bar=True)
+    image = imread(path("bar.png"))
+    row = image[380, :, 0] < 0.4
+    red = (image[200, :, 0] - image[200, :, 1] > 0.2).sum()
+    # The bar is 0.2 m at the middle of the cube, whose front face is nearer to the eye.
+    check.true(0.15 < row.sum() / red < 0.22, f"a bar of {row.sum()} pixels, of a cube of {red}")
+
+
+def test_flat_faces_are_drawn_flat():
+    block = mesh(shapes.cuboid((1, 0.5, 0.3), rounding=0.02), 0.02)
+    corners, normals = corners_of(block)
+    middle = (np.abs(corners.mean(1)[:, 2]) > 0.149)
+    check.true(middle.sum() > 0 and np.abs(np.abs(normals[middle][..., 2]) - 1).max() < 1e-3,
+               f"the normals of the {middle.sum()} triangles on the large faces")
+    ball = corners_of(mesh(shapes.sphere(0.5), 0.02))
+    inclined = (ball[1] * ball[0]).sum(-1) / np.linalg.norm(ball[0], axis=-1)
+    check.true(inclined.min() > 0.999, f"those of a ball at its points, {inclined.min()}")
+
+
+def test_movie():
+    image_of = __import__("PIL.Image", fromlist=["Image"])
+    for number, level in enumerate((0, 120, 255)):
+        image_of.new("RGB", (32, 20), (level, 0, 0)).save(path(f"film_{number}.png"))
+    potential_particles.movie(path("film.gif"), path("film_*.png"), fps=10)
+    with image_of.open(path("film.gif")) as film:
+        check.equal((film.n_frames, film.size), (3, (32, 20)), "pictures of a film")
+        film.seek(2)
+        check.equal(film.convert("RGB").getpixel((3, 3)), (255, 0, 0), "the last of them")
+        check.equal(film.info["duration"], 100, "milliseconds of one")
+    image_of.new("RGB", (30, 20)).save(path("film_9.png"))
+    for arguments, word in (((path("film.gif"), path("film_*.png")), "32 x 20 pixels"),
+                            ((path("film.avi"), path("film_*.png")), "one of these endings"),
+                            ((path("film.gif"), path("none_*.png")), "no such file"),
+                            ((path("film.gif"), [path("film_0.png")], 0), "fps=0 must be above 0")):
+        check.raises(ValueError, lambda: potential_particles.movie(*arguments), f"{arguments}", word)
+
+
 def test_picture_of_chains():
     from matplotlib.image import imread
     from potential_particles.output import chains
@@ -478,6 +563,10 @@ def test_picture_of_chains():
 test_patches()
 test_picture_of_patches()
 test_picture_of_chains()
+test_colours_by_values()
+test_scale_bar()
+test_flat_faces_are_drawn_flat()
+test_movie()
 test_mesh()
 test_mesh_files()
 test_outline()

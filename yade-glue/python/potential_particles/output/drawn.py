@@ -43,6 +43,10 @@ class Triangles(Rows):
         """Those of a mask or of indices."""
         return Triangles(self.corners[chosen], self.normals[chosen], self.colours[chosen], self.bodies[chosen])
 
+    def turned(self, turn):
+        """By a rotation (3, 3) about the origin."""
+        return Triangles(self.corners @ turn.T, self.normals @ turn.T, self.colours, self.bodies)
+
 
 class ShapeMeshes:
     """Corners and normals of the triangles of shapes, (n, 3, 3) each, local frame; made once for equal shapes."""
@@ -144,11 +148,18 @@ def _tell(kind):
 
 
 def corners_of(made):
-    """A mesh as corners of triangles, with the normal of the triangle itself where a point lies on an edge."""
+    """A mesh as corners of triangles, with the normal of the triangle itself where a point lies on an edge.
+
+    A surface whose normal at a corner is turned by t against a triangle of the circumradius c stands off it by about
+    c t / 2, if it bends all the way. Where that is more than the error of the mesh the triangle is flat, and the normal
+    turns at its rim alone.
+    """
     corners, normals = made.points[made.triangles], made.normals[made.triangles]
     own = _flat(corners)[1]
-    bend = (normals * own).sum(-1) >= np.cos(EDGE_ANGLE)
-    return corners, np.where(bend[:, :, None], normals, own)
+    turn = np.arccos(np.clip((normals * own).sum(-1), -1.0, 1.0))
+    longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=-1).max(1, keepdims=True)
+    bends = (turn <= EDGE_ANGLE) & (0.5 * turn * longest / np.sqrt(3.0) <= made.error)
+    return corners, np.where(bends[:, :, None], normals, own)
 
 
 def _flat(corners):

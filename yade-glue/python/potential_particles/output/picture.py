@@ -2,17 +2,19 @@
 """Pictures of the scene without a display, drawn by VTK: sun, shadows, darkened gaps, and boundaries one can see
 through.
 """
+import dataclasses
 import os
 
 import numpy as np
 import yade
 
-from ..arguments import whole
+from ..arguments import unit, whole
 from ..files import written
 from . import vtk_files
 from .chains import tubes
 from .drawn import ShapeMeshes, Triangles, drawn, edges
 from .patches import patches as patches_of
+from .values import of_bodies as values_of_bodies
 from .view import View, framing_view
 
 VIEW_ANGLE = 0.42  # full height, radians
@@ -30,46 +32,75 @@ BAR = 110  # pixels beside the picture for the scale of the pressure
 NEAR = 1.1  # boundaries that far from the middle, in radii of the scene, are held by the view
 
 
-def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None, patches=False, chains=False):
+def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bodies=None, patches=False, chains=False,
+         colour=None, label=None, up=(0, 0, 1), whole_scene=False, scale_bar=False):
     """Draws the present scene to a PNG: particles, spheres, boxes, facets and walls, each in the colour of its shape.
 
-    towards: direction from the scene to the eye, world axes. size: width and height in pixels. tolerance: of the meshes
-    of particles (see `mesh`); without one it follows from the size of the bodies on the picture. bodies: ids; without
-    them, all. patches: bodies become transparent, and contact patches between them (functors with patch=True, bonds)
-    show their pressure, with a scale in pascals. chains: the same with force chains, a tube along the line between the
-    centres of each contact, its width and colour by the normal force, with a scale in newtons. The camera stands so
-    that all bodies are seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would hide them.
-    Needs no display. ValueError for a scene that has nothing to draw; RuntimeError with the packages to install where
-    there is no OpenGL.
+    towards: direction from the scene to the eye, and up: what is up on the picture, world axes. size: width and height
+    in pixels. tolerance: of the meshes of particles (see `mesh`); without one it follows from the size of the bodies on
+    the picture. bodies: ids; without them, all. patches: bodies become transparent, and contact patches between them
+    (functors with patch=True, bonds) show their pressure, with a scale in pascals. chains: the same with force chains,
+    a tube along the line between the centres of each contact, its width and colour by the normal force, with a scale
+    in newtons. colour: "velocity", "displacement" (from State.refPos), "stress" (mean pressure within a body), or a
+    number for each body that is no boundary, as {id: number} or in the order of ids: bodies are coloured by it, with a
+    scale, which `label` names. whole_scene: all boundaries are in the picture, not only those near the bodies.
+    scale_bar: a bar of a round length, as it is in the middle of the bodies. The camera stands so that all bodies are
+    seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would hide them. Needs no display.
+    ValueError for a scene that has nothing to draw; RuntimeError with the packages to install where there is no OpenGL.
     """
     scene = [body for body in yade.O.bodies
              if body is not None] if bodies is None else [yade.O.bodies[i] for i in bodies]
     width, height = (whole(one, 16, 20_000, "size") for one in size)
     if tolerance is None:
         tolerance = fitting_tolerance(sum(not body.isClump for body in scene), size)
-    of_bodies, of_boundaries = drawn(scene, ShapeMeshes(tolerance))
-    if patches and chains:
-        raise ValueError("patches=True and chains=True have each a scale of their own: draw two pictures")
-    if not patches and not chains:
-        view = framing(of_bodies, of_boundaries, towards, width / height)
-        _write(file, render(of_bodies, of_boundaries, view, width, height))
-        return
+    if bool(patches) + bool(chains) + (colour is not None) > 1:
+        raise ValueError("patches=True, chains=True and colour= have each a scale of their own: draw two pictures")
+    turn = _upright(up)
+    of_bodies, of_boundaries = (part.turned(turn) for part in drawn(scene, ShapeMeshes(tolerance)))
+    towards = turn @ unit(towards, "towards")
+    coloured, beside = None, 0
+    if patches or chains or colour is not None:
+        beside = BAR
+        of_bodies, coloured, *scale = _coloured(scene, of_bodies, patches, chains, colour, label, turn)
+    view = framing(of_bodies, of_boundaries, towards, (width - beside) / height, whole_scene)
+    image = render(of_bodies, of_boundaries, view, width - beside, height, coloured)
+    if scale_bar:
+        image = _with_bar(image, view)
+    _write(file, _with_scale(image, *scale) if beside else image)
+
+
+def _upright(up):
+    """The rotation (3, 3) that makes `up` the z axis of the picture."""
+    up = unit(up, "up")
+    across = np.cross(np.eye(3)[np.abs(up).argmin()], up) if abs(up[2]) < 1 else np.array([0.0, up[2], 0.0])
+    across /= np.linalg.norm(across)
+    return np.stack([np.cross(across, up), across, up])
+
+
+def _coloured(scene, of_bodies, patches, chains, colour, label, turn):
+    """(bodies, what is seen through them or None; scale of the colours, its label, whether it has whole numbers)."""
+    if colour is not None:
+        shown = np.unique(of_bodies.bodies)
+        values, name, unit_of = values_of_bodies(colour, [yade.O.bodies[int(one)] for one in shown])
+        scale, one, prefix = _scale(values, unit_of)
+        rgb = scale.to_rgba(values / one)[:, :3]
+        painted = dataclasses.replace(of_bodies, colours=rgb[np.searchsorted(shown, of_bodies.bodies)])
+        name = name if label is None else label
+        return (painted, None, scale, f"{name}, {prefix}{unit_of}" if unit_of else name,
+                not unit_of and (values == np.round(values)).all())
     chosen = {body.id for body in scene}
     contacts = [contact for contact in yade.O.interactions if contact.isReal and {contact.id1, contact.id2} <= chosen]
     if chains:
         corners, forces = tubes(contacts)
-        values, name, unit = np.repeat(forces[:, None], 3, axis=1), "normal force", "N"
+        values, name, unit_of = np.repeat(forces[:, None], 3, axis=1), "normal force", "N"
     else:
-        shown = patches_of(contacts)
-        corners, values, name, unit = shown.corners, shown.pressure, "pressure", "Pa"
-    view = framing(of_bodies, of_boundaries, towards, (width - BAR) / height)
-    scale, one, prefix = _scale(values)
-    coloured = Triangles(corners, np.zeros_like(corners),
-                         scale.to_rgba(values / one)[..., :3], np.zeros(len(corners), int))
-    _write(
-        file,
-        _with_scale(render(of_bodies, of_boundaries, view, width - BAR, height, coloured), scale,
-                    f"{name}, {prefix}{unit}"))
+        found = patches_of(contacts)
+        corners, values, name, unit_of = found.corners, found.pressure, "pressure", "Pa"
+    scale, one, prefix = _scale(values, unit_of)
+    corners = corners @ turn.T
+    within = Triangles(corners, np.zeros_like(corners), scale.to_rgba(values / one)[..., :3],
+                       np.zeros(len(corners), int))
+    return of_bodies, within, scale, f"{name}, {prefix}{unit_of}", False
 
 
 def _write(file, image):
@@ -84,11 +115,11 @@ def fitting_tolerance(count, size):
     return float(np.clip(0.5 / radius, 1e-3, 0.05))
 
 
-def framing(of_bodies, of_boundaries, towards, aspect):
-    """The view that holds all bodies, and the boundaries near them."""
+def framing(of_bodies, of_boundaries, towards, aspect, whole_scene=False):
+    """The view that holds all bodies, and the boundaries near them, or all of these."""
     points = of_bodies.corners.reshape(-1, 3)
     limits = of_boundaries.corners.reshape(-1, 3)
-    if len(points) and len(limits):
+    if len(points) and len(limits) and not whole_scene:
         middle, radius = _ball(points)
         limits = limits[np.linalg.norm(limits - middle, axis=1) <= NEAR * radius]
     points = np.concatenate([points, limits])
@@ -183,24 +214,47 @@ def _lines(segments, middle, radius):
     return actor
 
 
-def _scale(values):
+def _scale(values, unit_of):
     """Colours for values in a multiple of their unit, that multiple, and its prefix."""
     from matplotlib import cm, colors
     largest = np.abs(values).max(initial=0.0)
-    one, prefix = next(((size, name) for size, name in ((1e9, "G"), (1e6, "M"), (1e3, "k")) if largest >= size),
-                       (1.0, ""))
+    multiples = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "µ"))
+    one, prefix = next((pair for pair in multiples if largest >= pair[0]), (1.0, "")) if unit_of else (1.0, "")
     span = colors.Normalize(values.min(initial=0.0) / one, (values.max(initial=0.0) or largest or 1.0) / one)
     return cm.ScalarMappable(span, PRESSURE_MAP), one, prefix
 
 
-def _with_scale(image, scale, label):
+def _with_bar(image, view):
+    """An image with a bar of 1, 2 or 5 times a power of ten of the scene's length, at most a fourth of its width."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    height, width, dots = *image.shape[:2], 100
+    pixels = height / (2.0 * np.tan(0.5 * view.angle) * np.linalg.norm(view.eye - view.target))
+    most = 0.25 * width / pixels
+    power = 10.0 ** np.floor(np.log10(most))
+    length = max(step * power for step in (1, 2, 5) if step * power <= most)
+    figure = Figure(figsize=(width / dots, height / dots), dpi=dots)
+    canvas = FigureCanvasAgg(figure)
+    axis = figure.add_axes([0, 0, 1, 1])
+    axis.imshow(image, extent=(0, width, 0, height), aspect="auto")
+    left, low = 0.04 * width, 0.05 * height
+    axis.plot([left, left + length * pixels], [low, low], color="0.15", linewidth=3, solid_capstyle="butt")
+    axis.text(left + 0.5 * length * pixels, low + 8, f"{length:g} m", ha="center", va="bottom", color="0.15")
+    axis.set_axis_off()
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[:height, :width, :3] / np.float32(255.0)
+
+
+def _with_scale(image, scale, label, whole_numbers):
     """An image with a scale of colours on its right."""
     from matplotlib.backends.backend_agg import FigureCanvasAgg
     from matplotlib.figure import Figure
+    from matplotlib.ticker import MaxNLocator
     height, dots = len(image), 100
     figure = Figure(figsize=(BAR / dots, height / dots), dpi=dots, facecolor="white")
     canvas = FigureCanvasAgg(figure)
-    figure.colorbar(scale, cax=figure.add_axes([0.05, 0.2, 0.2, 0.6]), label=label)
+    bar = figure.colorbar(scale, cax=figure.add_axes([0.05, 0.2, 0.2, 0.6]), label=label)
+    bar.ax.yaxis.set_major_locator(MaxNLocator(6, integer=whole_numbers))
     canvas.draw()
     return np.concatenate([image, np.asarray(canvas.buffer_rgba())[:height, :, :3] / np.float32(255.0)], axis=1)
 
