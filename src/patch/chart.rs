@@ -6,6 +6,7 @@
 //! the unit vectors, without a root to be found.
 
 use super::field::{Field, FramePlane, Owner};
+use super::numbers::STEEPEST_CHART;
 use super::ray::Node;
 use nalgebra::Vector3;
 
@@ -151,8 +152,5 @@ pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node>
         pressure: (1.0 - s).max(0.0),
         normal: [area.x * inverse, area.y * inverse],
     };
-    (node.normal[0].abs() + node.normal[1].abs() < STEEPEST && node.weight < f64::INFINITY).then_some(node)
+    (node.normal[0].abs() + node.normal[1].abs() < STEEPEST_CHART && node.weight < f64::INFINITY).then_some(node)
 }
-
-/// Beyond this slope the patch is not a graph.
-const STEEPEST: f64 = 30.0;

@@ -2,6 +2,7 @@
 
 use super::cap::Third;
 use super::chart::{Chart, Place, Vector, Wave, node};
+use super::numbers::{AROUND_DISC, Fitted, Limits};
 use super::ray::Node;
 use super::rules::gauss;
 use std::f64::consts::TAU;
@@ -35,12 +36,6 @@ const FIRST: [(f64, f64); 3] = [
 /// Its error for u⁴, whose exact integral is ⅒.
 const OF_FOURTH: f64 = 5.94e-4;
 
-/// Estimated over likely error.
-const SAFE: f64 = 3.0;
-
-/// Points around for it: on a sphere moments up to the second are exact, on a torus they converge.
-const FIRST_AROUND: [usize; 2] = [5, 7];
-
 impl Disc {
     /// `None` where the rim is not reached within the zone.
     pub fn new(chart: Chart, radii: [f64; 2], third: Third) -> Option<Self> {
@@ -69,7 +64,7 @@ impl Disc {
     /// A rule of few points, with the errors of ∫ p n and of the area by how fast the powers of the square of the
     /// distance fall.
     pub fn first(&self, mut visit: impl FnMut(Node)) -> Option<[f64; 2]> {
-        let points = FIRST_AROUND[usize::from(matches!(self.shape, Shape::Torus { .. }))];
+        let points = AROUND_DISC[usize::from(matches!(self.shape, Shape::Torus { .. }))];
         let mut rings = [[0.0; 4]; 3];
         for ((rho, weight), ring) in FIRST.iter().zip(&mut rings) {
             let weight = 2.0 * weight * TAU / points as f64;
@@ -98,7 +93,7 @@ impl Disc {
         let cubic = [0, 1, 2].map(third);
         // The divided difference, less the share of the cubic term.
         let square = [0, 1, 2].map(|i| second(i) - (u + v + w) * cubic[i]);
-        let scale = SAFE * OF_FOURTH * 2.0 * TAU / points as f64;
+        let scale = Fitted::OPTIMISM * OF_FOURTH * 2.0 * TAU / points as f64;
         let of_load = size(cubic);
         Some([if of_load > 0.0 { scale * of_load * of_load / size(square) } else { 0.0 }, scale * second(3).abs()])
     }
@@ -162,12 +157,9 @@ impl Disc {
     }
 }
 
-/// Most points around a disc.
-const MOST_AROUND: usize = 24;
-
 /// Sine and cosine of so many equal steps around.
-fn circle(count: usize) -> &'static [(f64, f64); MOST_AROUND] {
-    type Table = [[(f64, f64); MOST_AROUND]; MOST_AROUND];
+fn circle(count: usize) -> &'static [(f64, f64); Limits::AROUND_DISC] {
+    type Table = [[(f64, f64); Limits::AROUND_DISC]; Limits::AROUND_DISC];
     static TABLE: LazyLock<Table> = LazyLock::new(|| {
         std::array::from_fn(|n| std::array::from_fn(|i| (TAU * (i as f64 + 0.5) / (n + 1) as f64).sin_cos()))
     });

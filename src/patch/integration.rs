@@ -5,6 +5,7 @@ use super::cells::{CellScratch, cells};
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
+use super::numbers::{FINEST_OF_PARTS, Limits, OFF_CENTRE, ZONES_FIRST};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
@@ -14,20 +15,6 @@ use super::settings::PatchSettings;
 use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
-
-/// Rays start again where the centre of pressure is farther from their centre than this share of the patch's reach.
-const OFF_CENTRE: f64 = 0.25;
-
-/// Most such starts.
-const MOST_STARTS: usize = 3;
-
-/// Least tolerance of zones and cells: zones have no rules of higher degree, and the parabolas that bound cells are not
-/// refined any further.
-const FINEST_OF_PARTS: f64 = 1e-8;
-
-/// Zones are tried before cells up to this number of planes of both bodies: for boxes they cost less, but for bodies
-/// with many planes they mostly fail.
-const FEW: usize = 16;
 
 /// What a patch is computed from.
 pub(super) struct Task<'a> {
@@ -65,7 +52,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut parts = Parts { task, field: &mut field, start, deepest, tolerance, planes: ray_planes, nodes, points };
     let outcome = if parts.field.is_in_plane() {
         Some(parts.both_sides())
-    } else if parts.field.plane_count() <= FEW {
+    } else if parts.field.plane_count() <= ZONES_FIRST {
         parts.zones(pieces).or_else(|| parts.cells(cells))
     } else {
         parts.cells(cells).or_else(|| parts.zones(pieces))
@@ -233,7 +220,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
         // The axis of the wrench in the plane of the frame.
         let [_, _, load, turn_u, turn_v, ..] = integral.sums;
         let off = [-turn_v / load, turn_u / load];
-        if starts < MOST_STARTS && !fan.is_capped && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
+        if starts < Limits::STARTS && !fan.is_capped && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
             let [u, v, z] = fan.centre;
             if let Some(better) = on_patch(fan.walker.field, u + off[0], v + off[1], z) {
                 fan.centre = better;

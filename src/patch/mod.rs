@@ -4,6 +4,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what the integration is tuned by: limits, the budget of errors, fitted factors |
 //! | `rules` | Gauss rules |
 //! | `settings` | what is asked for |
 //! | `patch` | the answer |
@@ -54,6 +55,7 @@ mod form;
 mod half_plane;
 mod integration;
 mod network;
+mod numbers;
 #[allow(clippy::module_inception)]
 mod patch;
 mod patch_state;

@@ -3,38 +3,9 @@
 use super::curve::{ONWARDS, Stretch, Trouble};
 use super::field::{Field, dot};
 use super::half_plane::HalfPlane;
+use super::numbers::{BULGE, ErrorBudget, Fitted, HALF_TURN, Limits, ON_CURVE, SAME_VERTEX};
 use super::ray::{RIM, Walker};
 use super::rim::{CurvePart, Known, Misfit, RimPoint, parabola, unmet_plane};
-
-/// Most planes that may be loaded, vertices, and rounds in which planes are found.
-pub(super) const MOST_PLANES: usize = 128;
-const MOST_VERTICES: usize = 400;
-const MOST_ROUNDS: usize = 12;
-
-/// tan ½θ of the largest turn θ = 1.1 of half an arc.
-const HALF_TURN: f64 = 0.6;
-
-/// Distance from a side over its length within which a place counts as on it.
-const ON_CURVE: f64 = 1e-2;
-
-/// Distance over that from the origin within which two walks meet the same vertex.
-pub(super) const SAME: f64 = 1e-6;
-
-/// What one arc may be off, over the tolerance: of the area, and of the load.
-const OF_AREA: f64 = 1.0;
-const OF_LOAD: f64 = 0.1;
-
-/// What is left of the misfit in area once the middle of an arc is corrected by it, at most about.
-const CORRECTED: f64 = 0.2;
-
-/// A plane that changes the depth by less than this share of the tolerance gets no curve.
-const LEFT_OUT: f64 = 0.1;
-
-/// How much farther from the origin an arc may be than its ends and its middle.
-const BEYOND: f64 = 1.1;
-
-/// Most halvings of an arc or a curve.
-const MOST_HALVINGS: usize = 6;
 
 /// Where two curves meet, or one meets the rim.
 #[derive(Clone, Copy, Debug)]
@@ -114,9 +85,9 @@ impl Network {
         // Of an ellipse with these axes and a paraboloid of s over it.
         let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
         self.rough_load = 0.25 * drawing.depth * area;
-        let [of_area, of_load] = [OF_AREA * drawing.tolerance, OF_LOAD * drawing.tolerance];
+        let [of_area, of_load] = [drawing.tolerance, ErrorBudget::MINOR * drawing.tolerance];
         self.allowed = Misfit { area: of_area * area, load: of_load * self.rough_load, ..Misfit::default() };
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..Limits::ITERATIONS {
             loop {
                 if let Some((id, through)) = self.queue.pop() {
                     if !self.is_drawn(id) {
@@ -162,7 +133,7 @@ impl Network {
 
     /// Adds the curve of a plane.
     fn follow(&mut self, walker: &mut Walker, id: u32, through: [f64; 3]) -> Result<(), Trouble> {
-        if id as usize >= MOST_PLANES || self.vertices.len() > MOST_VERTICES {
+        if id as usize >= Limits::PLANES || self.vertices.len() > Limits::VERTICES {
             return Err(Trouble::Lost);
         }
         let is_drawn = self.is_drawn(id);
@@ -201,7 +172,7 @@ impl Network {
         halvings: usize,
     ) -> Result<(), Trouble> {
         let straying = if is_exact { 0.0 } else { part.straying(field) };
-        let is_off = straying > self.allowed.load && halvings < MOST_HALVINGS;
+        let is_off = straying > self.allowed.load && halvings < Limits::HALVINGS;
         if let Some([first, second]) = is_off.then(|| part.halves(field)).flatten() {
             self.vertices.push(Vertex { x: part.middle, planes: [part.id; 2], uses: 2 });
             let between = self.vertices.len() as u32 - 1;
@@ -327,16 +298,16 @@ impl Network {
             return Ok(true);
         }
         let middle = from.middle(to, field).ok_or(Trouble::Lost)?;
-        let away = BEYOND * dot(&middle.x, &middle.x).sqrt();
+        let away = BULGE * dot(&middle.x, &middle.x).sqrt();
         if away > field.loaded() {
             return Err(Trouble::Far(away));
         }
         let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
-        let least_beyond = LEFT_OUT * drawing.tolerance;
+        let least_beyond = ErrorBudget::MINOR * drawing.tolerance;
         let least = least_beyond * drawing.depth;
         let known = Known { drawn: self.drawn, at_origin: self.at_origin, least, least_beyond };
-        let is_arc = !turns || halvings == MOST_HALVINGS;
+        let is_arc = !turns || halvings == Limits::HALVINGS;
         if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], (own, is_arc), &known) {
             self.towards.push(([u, v], id as u32));
             if self.is_drawn(id as u32) {
@@ -351,7 +322,7 @@ impl Network {
             Misfit::default()
         };
         let is_off = turns || misfit.area > self.allowed.area || misfit.load > self.allowed.load;
-        if is_off && halvings < MOST_HALVINGS {
+        if is_off && halvings < Limits::HALVINGS {
             self.vertices.push(Vertex { x: middle.x, planes: [RIM; 2], uses: 1 });
             let between = self.vertices.len() as u32 - 1;
             let first = self.arc(field, drawing, ([ends[0], between], [from, &middle]), halvings + 1)?;
@@ -364,7 +335,7 @@ impl Network {
             self.misfit.area += tip;
             self.misfit.load += drawing.depth * tip;
         }
-        self.misfit.area += CORRECTED * misfit.area;
+        self.misfit.area += Fitted::CORRECTED * misfit.area;
         self.misfit.load += misfit.load;
         let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);
         self.sides.push(Side { ends, middle: [u, v], plane: RIM });
@@ -375,7 +346,7 @@ impl Network {
 /// Whether two walks found the same place.
 fn are_same(a: &[f64; 3], b: &[f64; 3]) -> bool {
     let size = b.iter().map(|c| c.abs()).fold(0.0, f64::max);
-    (0..3).all(|c| (a[c] - b[c]).abs() <= SAME * size)
+    (0..3).all(|c| (a[c] - b[c]).abs() <= SAME_VERTEX * size)
 }
 
 /// Rises with the angle of a point about the origin, from −2 to 2.

@@ -3,26 +3,13 @@
 use super::cell::{Cell, Quadratic, RayPlane};
 use super::field::{Field, Owner, dot};
 use super::half_plane::{HalfPlane, Tilt};
+use super::numbers::{GENTLE, Limits, NEAR_TURN, STEEP};
 
 /// Events of a ray that are kept; of a longer one the last place holds the end.
 pub(super) const EVENTS: usize = 12;
 
 /// The end of a ray where s = 1, in place of the number of a plane.
 pub(super) const RIM: u32 = u32::MAX;
-
-/// Most cells on a ray.
-const MOST_CELLS: usize = 400;
-
-/// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes
-/// rules converge slowly there.
-const STEEP: f64 = 3.0;
-
-/// Incline at the start of a cell from which on they are turned at once; else after half of the bend.
-pub(super) const GENTLE: f64 = 0.1;
-
-/// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either
-/// side.
-const NEAR_TURN: f64 = 0.999;
 
 /// Half of a straight line over the plane of the frame, from a point of the patch.
 #[derive(Clone, Copy, Debug)]
@@ -197,7 +184,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         let mut tilt = Tilt::UPRIGHT;
         self.set_out(&half_plane);
         let (mut rho, mut zeta, mut way) = (0.0, 0.0, 0.0);
-        for _ in 0..MOST_CELLS {
+        for _ in 0..Limits::RAY_CELLS {
             let cell = self.cell(&half_plane, rho, zeta);
             if !(cell.s.v < 1.0) {
                 ray.push(Event { id: RIM, rho: way, zeta, before: ray.sums[2] });

@@ -1,23 +1,8 @@
 //! Points and arcs of the rim of the patch, on which both potentials are 1, and of the curves inside.
 
 use super::field::{Field, Look, Owner, dot};
+use super::numbers::{COINCIDENT, Limits, MOST_HALF_TURN, ON_RIM, POINT_BESIDE_CURVE};
 use crate::linalg::root::MOST_STEPS;
-
-/// Most steps of Newton's method without a bracket.
-const MOST_NEWTON: usize = 12;
-
-/// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in
-/// it.
-const NEAR: f64 = 1e-5;
-
-/// tan ½θ that a turn counts for at most where the middle of an arc is guessed.
-const MOST_HALF_TURN: f64 = 1.5;
-
-/// The sine of an angle from which on two tangents cross.
-const PARALLEL: f64 = 1e-9;
-
-/// Weight of a point of quadrature beside a curve over the square of its length.
-const OF_POINT: f64 = 1.0 / 32.0;
 
 /// A point of the rim.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +45,7 @@ impl RimPoint {
         let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
         let turn = a * d - b * c;
         let along = (u * d - v * c) / turn;
-        (turn > PARALLEL).then_some([along * a - 0.5 * u, along * b - 0.5 * v])
+        (turn > COINCIDENT).then_some([along * a - 0.5 * u, along * b - 0.5 * v])
     }
 
     /// The area between the chord to another point and the tangents, within which the rim lies; infinite after half a
@@ -93,7 +78,7 @@ impl RimPoint {
         let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]));
         // Inwards is the other side of the rim, which in a sliver is near.
         let is_outwards =
-            |(x, _): &([f64; 3], Look)| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -NEAR * length;
+            |(x, _): &([f64; 3], Look)| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -ON_RIM * length;
         let (x, look) = x.filter(is_outwards).or_else(|| outwards(field, at, (out, length), sagitta))?;
         Self::of(field, x, &look)
     }
@@ -126,7 +111,7 @@ fn outwards(
         if !(next > inside && next < outside) {
             next = if outside.is_finite() { 0.5 * (inside + outside) } else { 2.0 * t + length };
         }
-        if (next - t).abs() <= NEAR * length {
+        if (next - t).abs() <= ON_RIM * length {
             return Some(([u, v, z], look));
         }
         t = next;
@@ -142,7 +127,7 @@ fn on_line(
     (out, length): ([f64; 2], f64),
     function: impl Fn(&Look, &[f64; 3]) -> (f64, [f64; 3]),
 ) -> Option<([f64; 3], Look)> {
-    for _ in 0..MOST_NEWTON {
+    for _ in 0..Limits::ITERATIONS {
         let look = field.look(&x);
         let (d, rises) = look.difference(field.b.is_some());
         let (off, slopes) = function(&look, &x);
@@ -155,7 +140,7 @@ fn on_line(
         if !(step.abs() < length) {
             return None;
         }
-        if step.abs().max(up.abs()) <= NEAR * length {
+        if step.abs().max(up.abs()) <= ON_RIM * length {
             return Some((x, look));
         }
     }
@@ -186,7 +171,12 @@ impl CurvePart {
             x[2] -= d / rises[2];
             plane.excess + dot(&plane.normal, &x)
         });
-        OF_POINT * 0.5 * field.plane_weight(plane.owner) * length * length * excess[0].powi(2).max(excess[1].powi(2))
+        POINT_BESIDE_CURVE
+            * 0.5
+            * field.plane_weight(plane.owner)
+            * length
+            * length
+            * excess[0].powi(2).max(excess[1].powi(2))
     }
 
     /// Its halves, each with its middle on the curve.

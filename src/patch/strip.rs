@@ -3,18 +3,9 @@
 //! Angles are given by the tangents of their halves.
 
 use super::chart::{Chart, Vector, Wave, node, turn};
+use super::numbers::{Limits, SETTLED, UNSETTLED};
 use super::ray::Node;
 use super::rules::{MOST_POINTS, gauss, tapering};
-
-/// Most fixed-point steps towards the corner of a strip.
-const MOST_STEPS: usize = 12;
-
-/// Relative size of a step at which the search for a corner has converged: p is 0 at the corner, so that its error
-/// enters the load by a higher power.
-const SETTLED: f64 = 1e-6;
-
-/// Relative size of the last step above which the search for a corner has not converged.
-const UNSETTLED: f64 = 1e-5;
 
 /// Where a strip ends.
 #[derive(Clone, Copy, Debug)]
@@ -66,7 +57,7 @@ impl Strip {
         for side in 0..2 {
             let first = strip.end(side, start).0;
             let (mut width, mut along, mut step) = (strip.width(first).0, first, f64::INFINITY);
-            for _ in 0..MOST_STEPS {
+            for _ in 0..Limits::ITERATIONS {
                 along = strip.end(side, start + width).0;
                 let next = strip.width(along).0;
                 step = (next - width).abs();

@@ -4,14 +4,11 @@ use super::cap::{Cap, Third};
 use super::chart::{Chart, Flat, Vector, Wave, normal, radius};
 use super::disc::Disc;
 use super::field::{Field, Owner};
+use super::numbers::{BULGE, FINE};
 use super::piece::{Kind, Piece};
 use super::polygon::{Corner, Level, OPEN, cut};
 use super::ray::RIM;
-use super::rules::FINE;
 use super::strip::{End, Strip};
-
-/// Factor by which a zone reaches farther from its middle than the places of its border that are computed, at most.
-pub(super) const BETWEEN: f64 = 1.1;
 
 /// The plane of A and that of B whose faces meet.
 type Faces = (usize, Option<usize>);
@@ -178,14 +175,14 @@ impl Zones<'_, '_, '_> {
     /// nothing off.
     fn beyond_edges(&self, border: &[Vector], ends: &[u32]) -> f64 {
         let middle = border.iter().sum::<Vector>() / border.len() as f64;
-        let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;
+        let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BULGE;
         let edges = self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner == Owner::Edge);
         let others = edges.filter(|(k, _)| !ends.contains(&(*k as u32)));
         others
             .map(|(_, edge)| {
                 let n = normal(edge);
                 let outwards = border.iter().map(|x| n.dot(&(x - middle))).fold(0.0, f64::max);
-                let beyond = edge.excess + n.dot(&middle) + BETWEEN * outwards;
+                let beyond = edge.excess + n.dot(&middle) + BULGE * outwards;
                 2.0 * reach * beyond.clamp(0.0, 2.0 * reach)
             })
             .sum()
