@@ -2,6 +2,7 @@
 //! digits.
 
 use super::answer::ShapeGradient;
+use super::numbers::Limits;
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::number::{Single, smaller};
 use crate::linalg::symmetric::Symmetric;
@@ -41,11 +42,9 @@ pub(super) struct Place<'a, N: Single = f64> {
 /// Places of planes, of which there are few.
 #[derive(Clone, Copy, Default)]
 struct Listed {
-    places: [u16; MOST_LISTED],
+    places: [u16; Limits::LISTED_PLANES],
     count: u8,
 }
-
-const MOST_LISTED: usize = 8;
 
 impl Listed {
     fn contains(&self, place: usize) -> bool {
@@ -224,7 +223,7 @@ impl<'a, N: Single> Place<'a, N> {
     /// S about the point in the axes that are the columns of a matrix, world axes.
     #[inline(always)]
     pub fn field(&self, axes: &Matrix3<N>) -> Field<N> {
-        // Written out: products of generic matrices are no loops that compilers unroll.
+        // Unrolled by hand: compilers do not unroll products of generic matrices.
         let axis = |i: usize| self.body.local(&axes.column(i).into_owned());
         let (first, second, normal) = (axis(0), axis(1), axis(2));
         let turn = |v: &Vector3<N>| Vector3::new(dot3(&first, v), dot3(&second, v), dot3(&normal, v));

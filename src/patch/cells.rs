@@ -24,7 +24,7 @@ pub(super) struct CellScratch {
     deepest: f64,
     /// Whether the sides took too much of the tolerance.
     is_off: bool,
-    /// [`POINTS`] for each part, of which it may use less.
+    /// Capacity of [`POINTS`] for each part.
     nodes: Vec<Node>,
 }
 

@@ -1,7 +1,7 @@
 //! A patch that is one zone: that of a corner on a face, or of crossed edges.
 
 use super::cap::Third;
-use super::chart::{Chart, Place, Vector, Wave, node};
+use super::local_coordinates::{LocalCoordinates, Place, Vector, Wave, node};
 use super::numbers::{AROUND_DISC, Fitted, Limits};
 use super::ray::Node;
 use super::rules::gauss;
@@ -11,17 +11,17 @@ use std::sync::LazyLock;
 /// The whole patch is one zone: three planes of a body against one, or two against two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
-    chart: Chart,
+    coordinates: LocalCoordinates,
     radii: [f64; 2],
-    shape: Shape,
+    shape: ExcessSurface,
 }
 
 /// The surface on which the excesses over s lie.
 #[derive(Clone, Copy, Debug)]
-enum Shape {
-    /// Of three planes of a body: about an axis, with two directions across it, up to 1 − cos ω = `whole`.
+enum ExcessSurface {
+    /// With three planes of one body: about an axis, with two directions across it, up to 1 − cos ω = `whole`.
     Sphere { axes: [Vector; 3], whole: f64 },
-    /// Of two planes of each body: two waves, and the sines of half the angles at which they end.
+    /// With two planes of each body: two waves, and the sines of half the angles at which they end.
     Torus { waves: [Wave; 2], ends: [f64; 2] },
 }
 
@@ -38,33 +38,34 @@ const OF_FOURTH: f64 = 5.94e-4;
 
 impl Disc {
     /// `None` where the rim is not reached within the zone.
-    pub fn new(chart: Chart, radii: [f64; 2], third: Third) -> Option<Self> {
+    pub fn new(coordinates: LocalCoordinates, radii: [f64; 2], third: Third) -> Option<Self> {
         let [r, other] = radii;
         let shape = match third {
             Third::Same => {
-                let towards = Vector::from(chart.slopes) * -r;
+                let towards = Vector::from(coordinates.slopes) * -r;
                 let size = towards.norm();
                 let axis = towards / size;
                 let p = axis.cross(&Vector::ith(axis.iamin(), 1.0)).normalize();
-                let whole = (size + other - chart.c) / size;
-                (whole > 0.0 && whole < 1.0).then_some(Shape::Sphere { axes: [axis, p, axis.cross(&p)], whole })?
+                let whole = (size + other - coordinates.c) / size;
+                (whole > 0.0 && whole < 1.0)
+                    .then_some(ExcessSurface::Sphere { axes: [axis, p, axis.cross(&p)], whole })?
             }
             Third::Other => {
-                let [alpha, beta, gamma] = chart.slopes;
+                let [alpha, beta, gamma] = coordinates.slopes;
                 let waves = [Wave::new(-alpha * r, -beta * r), Wave::new(other, -gamma * other)];
-                let depth = waves[0].size + waves[1].size - chart.c;
-                // Of half angles, which are those of an ellipse.
+                let depth = waves[0].size + waves[1].size - coordinates.c;
+                // Sines of half angles, since those are the half axes of an ellipse.
                 let ends = waves.map(|wave| (0.5 * depth / wave.size).sqrt());
-                (depth > 0.0 && ends.iter().all(|end| *end < 0.7)).then_some(Shape::Torus { waves, ends })?
+                (depth > 0.0 && ends.iter().all(|end| *end < 0.7)).then_some(ExcessSurface::Torus { waves, ends })?
             }
         };
-        Some(Self { chart, radii, shape })
+        Some(Self { coordinates, radii, shape })
     }
 
     /// A rule of few points, with the errors of ∫ p n and of the area by how fast the powers of the square of the
     /// distance fall.
     pub fn first(&self, mut visit: impl FnMut(Node)) -> Option<[f64; 2]> {
-        let points = AROUND_DISC[usize::from(matches!(self.shape, Shape::Torus { .. }))];
+        let points = AROUND_DISC[usize::from(matches!(self.shape, ExcessSurface::Torus { .. }))];
         let mut rings = [[0.0; 4]; 3];
         for ((rho, weight), ring) in FIRST.iter().zip(&mut rings) {
             let weight = 2.0 * weight * TAU / points as f64;
@@ -124,7 +125,7 @@ impl Disc {
     fn at(&self, u: f64, &(sin_chi, cos_chi): &(f64, f64)) -> Place {
         let [r, other] = self.radii;
         match &self.shape {
-            Shape::Sphere { axes: [axis, p, q], whole } => {
+            ExcessSurface::Sphere { axes: [axis, p, q], whole } => {
                 // 1 − cos ω, which is even over the sphere.
                 let versed = whole * u;
                 let (cos, sin) = (1.0 - versed, (versed * (2.0 - versed)).sqrt());
@@ -133,10 +134,11 @@ impl Disc {
                 let by_omega = cos * around - sin * axis;
                 let by_chi = cos_chi * q - sin_chi * p;
                 let scaled = |v: Vector| [v.x * r, v.y * r, v.z * r];
-                let (x, area, s) = self.chart.place(scaled(m), [scaled(by_omega), scaled(by_chi)], other, [0.0; 2]);
+                let (x, area, s) =
+                    self.coordinates.place(scaled(m), [scaled(by_omega), scaled(by_chi)], other, [0.0; 2]);
                 (x, *whole * area, s)
             }
-            Shape::Torus { waves, ends } => {
+            ExcessSurface::Torus { waves, ends } => {
                 let half = [ends[0] * u.sqrt() * cos_chi, ends[1] * u.sqrt() * sin_chi];
                 let root = half.map(|h| (1.0 - h * h).sqrt());
                 let from_peak = |wave: &Wave, i: usize| {
@@ -144,7 +146,7 @@ impl Disc {
                     ((wave.b * cos + wave.a * sin) / wave.size, (wave.a * cos - wave.b * sin) / wave.size)
                 };
                 let ((sin, cos), (sin2, cos2)) = (from_peak(&waves[0], 0), from_peak(&waves[1], 1));
-                let (x, area, s) = self.chart.place(
+                let (x, area, s) = self.coordinates.place(
                     [r * cos, r * sin, other * sin2],
                     [[-r * sin, r * cos, 0.0], [0.0, 0.0, other * cos2]],
                     other * cos2,

@@ -33,7 +33,7 @@ pub(super) struct Integral {
     pub radial: f64,
 }
 
-/// What a fan is made with.
+/// A fan of rays in the making.
 pub(super) struct Fan<'w, 'f, 'a, 's> {
     pub walker: Walker<'f, 'a, 's>,
     pub rays: &'w mut Vec<Ray>,
@@ -168,7 +168,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.rays.push(ray);
         let used_up = self.walker.nodes.len() >= Limits::NODES || self.walker.work >= Limits::WORK;
         if self.rays.len() >= Limits::RAYS || used_up {
-            // What is left is done as cheaply as it can be.
+            // The remaining rays are done as cheaply as possible.
             (self.is_capped, self.walker.budget) = (true, f64::INFINITY);
         }
         self.rays.len() - 1
@@ -241,8 +241,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         }
     }
 
-    /// Where between two rays, as a part of the chord, their first differing events swap their order; `None` if
-    /// unknown.
+    /// The place between two rays, as a part of the chord, at which their first differing events swap their order;
+    /// `None` if it is unknown.
     ///
     /// Inverse distances to straight borders are linear on the chord.
     fn change(&mut self, left: usize, right: usize, m: usize, at_a: &Event, at_b: &Event) -> Option<f64> {
@@ -315,7 +315,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let (start, end) = (scaled(&self.rays[left], from), scaled(&self.rays[right], to));
         let cross = start[0] * end[1] - start[1] * end[0];
         if !(cross > 0.0) {
-            // Of no area.
+            // A sector without area.
             self.sectors[index].count = 1;
             return true;
         }

@@ -16,7 +16,7 @@ use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-/// What a patch is computed from.
+/// The data of a patch.
 pub(super) struct Task<'a> {
     pub a: Placed<'a>,
     pub b: Option<Placed<'a>>,
@@ -90,7 +90,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     Patch { flags, error, area_error, rays: outcome.rays, ..summary.patch }
 }
 
-/// What is known of a patch besides its points.
+/// Errors, energy and flags of a patch: all but its points.
 #[derive(Default)]
 struct Outcome {
     error: f64,
@@ -184,7 +184,7 @@ fn only_in_plane(stiffness: &mut Matrix6<f64>) {
 }
 
 impl Outcome {
-    /// Of points whose errors are estimated.
+    /// The outcome for points whose errors are estimated.
     fn of(estimate: &Estimate, points: &[Node]) -> Self {
         let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
         Self {
@@ -341,7 +341,7 @@ impl Summary {
         Self { patch, sums }
     }
 
-    /// What needs the axis of the wrench.
+    /// Adds the quantities that need the axis of the wrench.
     fn complete(&mut self, task: &Task, points: &[Node]) {
         let frame = &task.frame;
         let (force, torque) =

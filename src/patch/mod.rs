@@ -22,7 +22,7 @@
 //! | `triangle_rule` | quadrature over a curved triangle |
 //! | `triangulation` | cells cut into such triangles |
 //! | `cells` | the patch in cells |
-//! | `chart` | coordinates in which the patch is explicit |
+//! | `local_coordinates` | coordinates in which the patch is explicit |
 //! | `polygon` | its flat part |
 //! | `strip` | the part along an edge |
 //! | `cap` | the part beyond its end |
@@ -43,7 +43,6 @@ mod cap;
 mod cell;
 mod cells;
 mod centre;
-mod chart;
 mod contact;
 mod curve;
 mod disc;
@@ -54,6 +53,7 @@ mod field;
 mod form;
 mod half_plane;
 mod integration;
+mod local_coordinates;
 mod network;
 mod numbers;
 #[allow(clippy::module_inception)]

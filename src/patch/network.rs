@@ -34,7 +34,8 @@ pub(super) struct Network {
     pub sides: Vec<Side>,
     /// Planes whose curves are to be followed, each from a place on it.
     queue: Vec<(u32, [f64; 3])>,
-    /// The same of planes one curve of which is drawn: one that crosses the patch twice has two.
+    /// Planes one curve of which is drawn, each from a place on another one: a plane that crosses the patch twice has
+    /// two.
     again: Vec<(u32, [f64; 3])>,
     /// Directions in which planes are sought, and the one that counts even if its curve is drawn.
     towards: Vec<([f64; 2], u32)>,
@@ -44,17 +45,17 @@ pub(super) struct Network {
     /// The edges of the triangle, beyond which nothing counts.
     pub edges: u128,
     ring: Vec<(f64, u32)>,
-    /// What an arc may be off, and what all are.
+    /// Misfit that an arc may have, and that of all arcs.
     allowed: Misfit,
     pub misfit: Misfit,
-    /// What the curves may be off, of ∫ p.
+    /// Misfit of ∫ p along the curves.
     pub curved_load: f64,
     /// ∫ p over the patch, roughly.
     pub rough_load: f64,
     stretches: [Vec<Stretch>; 2],
 }
 
-/// What the network is drawn with.
+/// The settings by which a network is drawn.
 #[derive(Clone, Copy)]
 pub(super) struct Drawing {
     /// The axis of the frame's plane along which the first rays go, and across it.
@@ -82,7 +83,7 @@ impl Network {
             self.vertices.push(Vertex { x: end, planes: [RIM; 2], uses: 1 });
             lengths[i % 2] += (end[0] * end[0] + end[1] * end[1]).sqrt();
         }
-        // Of an ellipse with these axes and a paraboloid of s over it.
+        // Area of an ellipse with these axes, and load of a paraboloid of s over it.
         let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
         self.rough_load = 0.25 * drawing.depth * area;
         let [of_area, of_load] = [drawing.tolerance, ErrorBudget::MINOR * drawing.tolerance];
@@ -201,7 +202,7 @@ impl Network {
         Ok(self.vertices.len() as u32 - 1)
     }
 
-    /// Where one curve met another that did not meet it, the other gets a vertex; returns whether all such places are
+    /// Adds a vertex to every curve that another one met without being met by it; returns whether all such vertices are
     /// on drawn curves.
     fn meet(&mut self) -> bool {
         for i in 0..self.vertices.len() {
@@ -330,7 +331,7 @@ impl Network {
             return Ok(first && second);
         }
         if turns {
-            // What its tip holds is known no better.
+            // Area and load of the tip are not known any better.
             let tip = from.tip(to);
             self.misfit.area += tip;
             self.misfit.load += drawing.depth * tip;

@@ -2,6 +2,8 @@
 //! how much work is done and what error is stated. Lengths are over the size of the bodies unless another is named, and
 //! pressures over `length`. docs/patch.md has the errors and times that they lead to.
 
+use crate::linalg::number::gamma;
+
 /// The finest and the coarsest tolerance that is taken.
 pub(super) const FINEST: f64 = 1e-12;
 pub(super) const COARSEST: f64 = 0.1;
@@ -45,7 +47,9 @@ impl Limits {
 pub(super) struct ErrorBudget;
 
 impl ErrorBudget {
+    /// Part of the tolerance for each error that is bounded once.
     pub const MINOR: f64 = 0.1;
+    /// Part of the tolerance for the rules.
     pub const MAIN: f64 = 1.0 - Self::MINOR;
     /// Part of MAIN that the sides of cells may take; where they take more they are drawn again, with PART of the
     /// tolerance. NEGLIGIBLE is left for the rules.
@@ -56,8 +60,8 @@ impl ErrorBudget {
 }
 
 /// Factors between what a rule shows of its error and the error itself, fitted to random pairs of bodies. Together they
-/// are judged by `PATCH_ROUNDS=20000 cargo test --release --test patch cells_are_as_rays`, which prints how many patches
-/// are off by more than their estimate (25 of 59,539 by more than twice of it: docs/patch.md).
+/// are judged by `PATCH_ROUNDS=20000 cargo test --release --test patch cells_are_as_rays`, which prints how many
+/// patches are off by more than their estimate (25 of 59,539 by more than twice of it: docs/patch.md).
 pub(super) struct Fitted;
 
 impl Fitted {
@@ -83,12 +87,15 @@ impl Fitted {
     pub const CAP_BY_TWO: [f64; 2] = [0.003, 0.3];
     /// Error over the load by two points along a strip that tapers: one point along it would tell nothing.
     pub const TAPERED: f64 = 1e-3;
-    /// A carried patch: relative error of force and torque over the square of the motion over the depth, and of the area
-    /// over that motion: those of a corner, whose force grows with the third power of the depth.
+    /// A carried patch: relative error of force and torque over the square of the motion over the depth, and of the
+    /// area over that motion: those of a corner, whose force grows with the third power of the depth.
     pub const CARRIED_FORCE: f64 = 3.0;
     pub const CARRIED_AREA: f64 = 2.0;
 }
 
+/// Rounding of s at a point, in units of the size of the bodies over r: of distances from planes and of the point
+/// itself.
+pub(super) const ROUNDING: f64 = gamma(8);
 /// Lengths, areas over their square, and parts of a normal below this are rounding: products of a few doubles.
 pub(super) const ROUNDED: f64 = 1e-12;
 /// A step back on a ray that is rounding.
@@ -133,7 +140,7 @@ pub(super) const FINE: f64 = 1e-5;
 pub(super) const HOPELESS: f64 = 60.0;
 
 /// Slope beyond which a patch is no graph over the plane of its zones.
-pub(super) const STEEPEST_CHART: f64 = 30.0;
+pub(super) const STEEPEST_GRAPH: f64 = 30.0;
 /// Points of the rules of a strip, across and along, from coarse to fine; of a cap in both angles; of a disc outwards
 /// and around, after its first rule, which has AROUND_DISC points around: on a sphere moments up to the second are
 /// exact, on a torus they converge.
@@ -154,8 +161,8 @@ pub(super) const OFF_CENTRE: f64 = 0.25;
 /// Distance of two events on a ray at which it borders on another sequence of cells, relative and over the root of the
 /// tolerance: the error is of second order in it.
 pub(super) const EVENTS_MEET: f64 = 0.1;
-/// Distance from a straight line, over its length, of a border that counts as straight: the loads of flat cells are then
-/// polynomials.
+/// Distance from a straight line, over its length, of a border that counts as straight: the loads of flat cells are
+/// then polynomials.
 pub(super) const STRAIGHT_BORDER: f64 = 1e-7;
 /// A sector has a tip where its middle ray is this many times as long as the way to the middle of the chord between its
 /// ends.
@@ -168,8 +175,8 @@ pub(super) const STEEPEST_LOAD: f64 = 30.0;
 pub(super) const WIDEST_SECTOR: f64 = 1.7;
 /// Distance of two points of a patch over the radius about the start of the walk, at most.
 pub(super) const SPREAD: f64 = 2.0;
-/// Length of the triangle that bounds a cell over the estimated distance of the rim, and the distance beyond which there
-/// is none.
+/// Length of the triangle that bounds a cell over the estimated distance of the rim, and the distance beyond which
+/// there is none.
 pub(super) const BEYOND_RIM: f64 = 1.25;
 pub(super) const FARTHEST_RIM: f64 = 100.0;
 /// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes
@@ -185,6 +192,6 @@ pub(super) const SHORTEST_CELL: f64 = 1.0 / 256.0;
 /// Gauss points in a cell for the energy.
 pub(super) const ENERGY_POINTS: usize = 5;
 
-/// Largest motion over the largest depth up to which a patch is carried on, over the root of the tolerance: CARRIED_FORCE
-/// times its square is about a quarter of the tolerance.
+/// Largest motion over the largest depth up to which a patch is carried on, over the root of the tolerance:
+/// CARRIED_FORCE times its square is about a quarter of the tolerance.
 pub(super) const FARTHEST_CARRIED: f64 = 0.3;

@@ -56,7 +56,7 @@ pub struct PatchState {
     uses: u64,
 }
 
-/// Where A is, seen from B.
+/// The place of A, seen from B.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 struct Place {
@@ -83,7 +83,7 @@ struct Now<'a> {
     s: Option<f64>,
 }
 
-/// What A has done since the patch was integrated, in the frame of B.
+/// The motion of A since the patch was integrated, in the frame of B.
 struct Motion {
     /// Shift and turn about the contact point of that time.
     screw: Vector6<f64>,
@@ -228,7 +228,7 @@ impl PatchState {
         let change = patch.stiffness * motion.screw;
         let force = patch.force + change.fixed_rows::<3>(0);
         let about_point = patch.torque + change.fixed_rows::<3>(3);
-        // Where the axis of the wrench is nearest to the contact point, and from there to the height of the patch.
+        // The point of the axis of the wrench that is nearest to the contact point, moved to the height of the patch.
         let (square, size) = (force.norm_squared(), force.norm());
         let foot = point + force.cross(&about_point) / square;
         let centre = foot + force * (force.dot(&(patch.pressure_centre - foot)) / square);
@@ -247,7 +247,7 @@ impl PatchState {
             centroid: world(&(patch.pressure_centre + patch.centroid - centre)),
             second_moment: now.axes * patch.second_moment * now.axes.transpose(),
             mean_depth: patch.mean_depth * (size / patch.force.norm()),
-            // Of closest, s is not that of the point.
+            // With the formulation closest, s is not that of the point.
             largest_depth: now.s.map_or(patch.largest_depth, |s| (patch.length * (1.0 - s)).max(0.0)),
             energy: patch.energy + work.dot(&motion.screw),
             stiffness: Matrix6::repeat(f64::NAN),

@@ -1,8 +1,8 @@
 //! One zone with its rule of quadrature: a strip, a cap or a disc.
 
 use super::cap::Cap;
-use super::chart::Vector;
 use super::disc::Disc;
+use super::local_coordinates::Vector;
 use super::numbers::{CAP_RULES, DISC_RULES, FINE, Fitted, STRIP_RULES};
 use super::ray::Node;
 use super::strip::Strip;
@@ -13,11 +13,11 @@ pub(super) struct Piece {
     pub kind: Kind,
     /// The rule in use, of those of its kind.
     rule: usize,
-    /// What is neglected: of the force.
+    /// Force that is neglected.
     pub neglected: f64,
     /// Estimated errors of force and area.
     pub errors: [f64; 2],
-    /// Where its points are.
+    /// Range of its points.
     nodes: (usize, usize),
 }
 

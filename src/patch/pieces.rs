@@ -1,8 +1,8 @@
 //! The patch of bodies without a sphere in pieces that need no search: a polygon with strips and caps around it, the
 //! strips and caps of an edge, or a disc.
 
-use super::chart::{Vector, normal};
 use super::field::{Field, Owner};
+use super::local_coordinates::{Vector, normal};
 use super::numbers::{ErrorBudget, LOADED_AT_ONCE};
 use super::piece::Piece;
 use super::polygon::{Corner, integrate};
@@ -82,7 +82,7 @@ fn refine(pieces: &mut [Piece], tolerance: f64, deepest: f64, nodes: &mut Vec<No
         let neglected: f64 = pieces.iter().map(|piece| piece.neglected).sum();
         let [force, area] = [0, 1].map(|i| pieces.iter().map(|piece| piece.errors[i]).sum::<f64>());
         if force + neglected <= limit {
-            // What a finer rule has replaced has no weight.
+            // Points that a finer rule has replaced have no weight.
             nodes.retain(|node| node.weight > 0.0);
             return Some(Estimate { force: force + neglected, area, rays: 0 });
         }

@@ -1,7 +1,7 @@
 //! The flat part of a patch: where one plane of each body is active, a polygon with a linear pressure.
 
-use super::chart::{Flat, Vector, normal, radius};
 use super::field::{Field, Owner};
+use super::local_coordinates::{Flat, Vector, normal, radius};
 use super::numbers::{ROUNDED, WIDE_SIDE_POINTS};
 use super::ray::{Node, RIM};
 use super::rules::gauss;
@@ -27,7 +27,7 @@ fn linear([c, u, v]: &[f64; 3], at: &[f64; 2]) -> f64 {
 }
 
 impl Level {
-    /// Where plane `i` of A and the flat body are level with each other.
+    /// The line on which plane `i` of A and the flat body have the same excess.
     pub fn new(field: &Field, i: usize, other: &Flat) -> Option<Self> {
         let plane = &field.planes[i];
         let of_a = 1.0 / radius(field, Owner::A);

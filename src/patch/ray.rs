@@ -21,7 +21,7 @@ pub(super) struct Line {
     pub is_polar: bool,
 }
 
-/// Where the way through a cell ends.
+/// The end of the way through a cell.
 pub(super) struct CellEnd {
     pub h: f64,
     pub k: f64,
@@ -35,8 +35,8 @@ pub(super) struct CellEnd {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub x: [f64; 3],
-    /// Of the area in the plane of the frame, per angle; below 0 where the patch has turned back under itself, so that
-    /// sums of weight · normal are right there, too.
+    /// Weight of its area in the plane of the frame, per angle; below 0 where the patch has turned back under itself,
+    /// so that sums of weight · normal are right there, too.
     pub weight: f64,
     /// 1 − s.
     pub pressure: f64,
@@ -53,7 +53,7 @@ impl Node {
     }
 }
 
-/// Where a plane goes on or off, or the ray ends.
+/// A place at which a plane goes on or off, or the ray ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Event {
     /// Number of the plane, or [`RIM`].
@@ -68,7 +68,7 @@ pub(super) struct Event {
 /// Number of integrals of a ray.
 pub(super) const SUMS: usize = 8;
 
-/// What a ray found.
+/// A ray that was walked, and its integrals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray {
     pub direction: [f64; 2],
@@ -164,7 +164,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         }
     }
 
-    /// The same, unless it leaves the distance within which all planes are loaded: that distance.
+    /// Walks once. An error is the distance up to which planes must be loaded, where the ray leaves those that are.
     fn attempt(&mut self, line: &Line) -> Result<Ray, f64> {
         let start = self.nodes.len() as u32;
         let nowhere = Event { id: RIM, rho: 0.0, zeta: 0.0, before: 0.0 };
@@ -256,7 +256,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         }
     }
 
-    /// Where the way through a cell ends: at the nearest plane or edge, or on the rim.
+    /// The end of the way through a cell: at the nearest plane or edge, or on the rim.
     pub fn end_of(&self, cell: &Cell) -> CellEnd {
         // Beyond its turn the patch is no graph, and what is met there lies on another branch.
         let turn = cell.turn();

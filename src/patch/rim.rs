@@ -14,12 +14,12 @@ pub(super) struct RimPoint {
 }
 
 impl RimPoint {
-    /// What the field has at a point of the rim; `None` where the patch is no graph.
+    /// The direction and the slopes of the field at a point of the rim; `None` where the patch is no graph.
     pub fn new(field: &Field, x: [f64; 3]) -> Option<Self> {
         Self::of(field, x, &field.look(&x))
     }
 
-    /// The same from what was seen there, or so near that its direction is known.
+    /// As `new`, from a look at the point, or at one so near that the direction of the rim is known.
     fn of(field: &Field, x: [f64; 3], look: &Look) -> Option<Self> {
         let (_, rises) = look.difference(field.b.is_some());
         // The slope of S points outwards.
@@ -39,7 +39,7 @@ impl RimPoint {
         (a * d - b * c) / (1.0 + (a * c + b * d))
     }
 
-    /// Where the tangents here and at another point cross, from the middle of the chord.
+    /// Crossing of the tangents here and at another point, from the middle of the chord.
     fn crossing(&self, other: &Self) -> Option<[f64; 2]> {
         let ([a, b], [c, d]) = (self.tangent, other.tangent);
         let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
@@ -61,7 +61,7 @@ impl RimPoint {
         let (mut out, length) = across(&self.x, &other.x);
         let half = self.half_turn_to(other);
         let chord: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
-        // Of a circle: half the chord times tan ¼θ.
+        // The sagitta of a circle: half the chord times tan ¼θ.
         let part = 1.0 / (1.0 + (1.0 + half * half).sqrt());
         let mut sagitta = 0.5 * length * half.clamp(-MOST_HALF_TURN, MOST_HALF_TURN) * part;
         let towards = self.crossing(other).or_else(|| {
@@ -226,7 +226,7 @@ impl Misfit {
     }
 }
 
-/// What is known of the planes where the rim is drawn, a bit each.
+/// The planes whose state is known where the rim is drawn, one bit each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     /// Planes whose curves are drawn.
@@ -235,7 +235,7 @@ pub(super) struct Known {
     pub at_origin: u128,
     /// Change of S by a plane up to which its curve is left out.
     pub least: f64,
-    /// The same of how far the edge of a triangle is crossed, over the distance from the origin.
+    /// Distance beyond the edge of a triangle, over that from the origin, up to which the edge is left out.
     pub least_beyond: f64,
 }
 
@@ -294,7 +294,7 @@ fn across(from: &[f64; 3], to: &[f64; 3]) -> ([f64; 2], f64) {
     ([v / length, -u / length], length)
 }
 
-/// Of a vector of the frame's plane. A patch is as large as its bodies: squares neither overflow nor vanish.
+/// Length of a vector of the frame's plane. A patch is as large as its bodies: squares neither overflow nor vanish.
 fn length_of([u, v]: [f64; 2]) -> f64 {
     (u * u + v * v).sqrt()
 }
