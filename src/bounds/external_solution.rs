@@ -106,7 +106,7 @@ mod tests {
             let x = Vector3::new(0.0, 0.0, 1.6)
                 + 0.1_f64.powi((seed % 7) as i32) * Vector3::<f64>::from_fn(|_, _| chance());
             for (problem, s) in [(Problem::Midway, 0.8), (Problem::OnB, 0.4), (Problem::OnA, 0.7)] {
-                let found = judged(&x, 2.0 * f64::exp(3.0 * chance()), s, [&a, &b], problem);
+                let found = external_solution(&x, 2.0 * f64::exp(3.0 * chance()), s, [&a, &b], problem);
                 let (low, high) = (found.lower - found.rounding, found.upper + found.rounding);
                 assert!(low <= s * s && s * s <= high, "{problem:?} at {x:?}: {low}, {high}");
             }

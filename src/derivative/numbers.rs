@@ -4,8 +4,6 @@
 pub(super) struct Limits;
 
 impl Limits {
-    /// Planes whose places are listed, as few are.
-    pub const LISTED_PLANES: usize = 8;
     /// Steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
     pub const NEWTON_STEPS: usize = 30;
     /// Corrections of a surface point that is given to the rounding of its position in the world.
