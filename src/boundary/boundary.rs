@@ -1,7 +1,7 @@
 //! Planes and triangles as given, checked.
 
 use crate::answer::words;
-use crate::linalg::number::direction;
+use crate::linalg::number::{direction, gamma};
 use crate::linalg::wide::{difference, rounded};
 use crate::pair::boundary_part::BoundaryPart;
 use nalgebra::Vector3;
@@ -115,7 +115,7 @@ pub struct Triangle {
 
 /// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding,
 /// and so is each product of their components.
-const FLAT: f64 = 16.0 * f64::EPSILON;
+const FLAT: f64 = gamma(32);
 
 /// The same sine below which the normal is taken from numbers of 32 digits: the rounding of the sides, over the sine,
 /// turns it.

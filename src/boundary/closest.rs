@@ -7,13 +7,13 @@ use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::error::DetectError;
 use crate::flags::Flags;
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::number::{gamma, larger, smaller};
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
 use crate::pair::body::{Body, shift_in_a};
 use crate::pair::boundary_part::{BoundaryPart, PartFrame, PlacedPart};
 use crate::pair::pair::Pair;
-use crate::pair::separation::MARGIN;
+use crate::particle::numbers::MARGIN;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Settings;
@@ -21,7 +21,7 @@ use crate::solver::call::Call;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
 /// Bound on the rounding of a distance, relative to it.
-const OF_LENGTHS: f64 = 8.0 * f64::EPSILON;
+const OF_LENGTHS: f64 = gamma(16);
 
 /// The particle, and what its searches on the parts of a boundary have cost so far.
 pub(super) struct Search<'a> {

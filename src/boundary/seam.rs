@@ -130,8 +130,7 @@ mod tests {
     use crate::contact::contact::Kind;
     use crate::pair::scattered;
 
-    /// Of two triangles with a common edge, from the answers of both alone: the sides of the seam are told apart as
-    /// their least s are.
+    /// The slope test at the common edge of two triangles orders them as their least s.
     #[test]
     fn the_way_of_s_over_a_seam_is_that_of_the_least_s_on_both_sides() {
         let cube = Particle::cube(0.4, 0.1, 0.05, 0.9);

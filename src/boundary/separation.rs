@@ -3,7 +3,8 @@
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::pair::body::shift_in_a;
-use crate::pair::separation::{Apart, MARGIN};
+use crate::pair::separation::Apart;
+use crate::particle::numbers::MARGIN;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::Vector3;

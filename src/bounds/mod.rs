@@ -5,7 +5,7 @@
 //! the sensitivity of the optimum to its data ([`sensitivity`], [`point_bound`]). docs/theory.md derives each bound.
 
 pub(crate) mod dual_bound;
-pub(crate) mod judged;
+pub(crate) mod external_solution;
 pub(crate) mod point_bound;
 pub(crate) mod rounding;
 pub(crate) mod scale;

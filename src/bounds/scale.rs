@@ -1,7 +1,7 @@
 //! The scale s of a solution, and the bound on its error.
 
 use crate::bounds::solution::Solution;
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::number::{gamma, larger, smaller};
 use crate::model::problem::Problem;
 use crate::pair::body::Body;
 
@@ -19,7 +19,7 @@ pub(crate) struct Scale {
 
 /// Rounding of the sums and roots below, relative to s: γ₆ for the sums of S and the weights, halved by the root,
 /// and that of the root itself.
-const OF_SCALE: f64 = 2.0 * f64::EPSILON;
+const OF_SCALE: f64 = gamma(4);
 
 /// What bounds of s are apart by rounding, as a share of s².
 const OF_DOUBLE: f64 = 1e-14;

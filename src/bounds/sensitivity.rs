@@ -1,7 +1,7 @@
 //! How the optimum of two quadratics answers to small changes of their data, and so what rounding does to it.
 
 use crate::bounds::rounding::sums;
-use crate::linalg::number::larger;
+use crate::linalg::number::{gamma, larger};
 use crate::linalg::symmetric::Symmetric;
 use crate::model::dual_path::Optimum;
 use crate::model::problem::Problem;
@@ -9,7 +9,7 @@ use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
 /// Rounding of tr(M H M), relative to tr H⁻¹ (estimated).
-const TRACE_ROUNDING: f64 = 16.0 * f64::EPSILON;
+const TRACE_ROUNDING: f64 = gamma(32);
 
 /// How the optimum answers to small changes of the data: the derivative of the conditions
 /// a·g_A + b·g_B = 0 and m = 0.

@@ -27,7 +27,7 @@ pub(crate) struct Solution {
     pub values: [f64; 2],
     /// Best estimate of the optimal S.
     pub estimate: f64,
-    /// Bound on what is left of the weighted slope, with all that is in doubt about it.
+    /// Bound on the residual of the weighted gradient, rounding included.
     pub slope: f64,
     /// How steeply S falls from a part of a boundary into the rest of it, where that came with the solution.
     pub inward_descent: Option<f64>,

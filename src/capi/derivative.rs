@@ -103,8 +103,8 @@ pub unsafe extern "C" fn pp_contact_gradient(
 ) -> pp_status {
     give!((poses, flags), [a, pose_a, b, pose_b, settings, contact, weights], {
         // SAFETY: as the caller has promised.
-        let mut shapes = [unsafe { Shape::of(shape_a, a) }?, unsafe { Shape::of(shape_b, b) }?];
-        let [of_a, of_b] = shapes.each_mut().map(Shape::sum);
+        let mut shapes = [unsafe { ShapeSum::of(shape_a, a) }?, unsafe { ShapeSum::of(shape_b, b) }?];
+        let [of_a, of_b] = shapes.each_mut().map(ShapeSum::sum);
         let found = contact_gradient(a, &pose_a, b, &pose_b, contact, settings, weights, of_a, of_b);
         added(found, shapes)
     })
@@ -155,21 +155,21 @@ pub unsafe extern "C" fn pp_flat_contact_gradient(
     give!((poses, flags), [a, pose_a, settings, contact, weights], {
         // SAFETY: as the caller has promised.
         let triangle = unsafe { boundary_from(vertices) }?;
-        let mut gradient = unsafe { Shape::of(shape, a) }?;
-        let sum = Shape::sum(&mut gradient);
+        let mut gradient = unsafe { ShapeSum::of(shape, a) }?;
+        let sum = ShapeSum::sum(&mut gradient);
         let found = boundary_gradient(a, &pose_a, triangle.as_ref(), contact, settings, weights, sum);
         added(found, [gradient])
     })
 }
 
 /// A gradient of the caller, and what is to be added to it.
-struct Shape<'a> {
+struct ShapeSum<'a> {
     given: &'a mut pp_shape_gradient,
     planes: &'a mut [[f64; 4]],
     sum: ShapeGradient,
 }
 
-impl<'a> Shape<'a> {
+impl<'a> ShapeSum<'a> {
     /// # Safety
     /// `given` is NULL or exclusively ours for the call, as its planes are.
     unsafe fn of(given: *mut pp_shape_gradient, particle: &Particle) -> Result<Option<Self>, pp_status> {
@@ -201,10 +201,10 @@ impl<'a> Shape<'a> {
 /// The gradients of both poses, and flags; those of shapes are added.
 fn added<const N: usize>(
     found: Result<([PoseGradient; 2], DerivativeFlags), DerivativeError>,
-    shapes: [Option<Shape>; N],
+    shapes: [Option<ShapeSum>; N],
 ) -> Result<([PoseGradient; 2], u32), pp_status> {
     let (gradients, flags) = found.map_err(status_of)?;
-    shapes.into_iter().flatten().for_each(Shape::add);
+    shapes.into_iter().flatten().for_each(ShapeSum::add);
     Ok((gradients, flags.bits()))
 }
 

@@ -18,7 +18,7 @@ thread_local! {
 #[inline]
 pub(super) fn fenced(body: impl FnOnce() -> Result<(), pp_status>) -> pp_status {
     silence_panics_inside();
-    // Looked up once: in a shared library that is a call.
+    // Kept in a variable: in a shared library each access of a thread-local is a call.
     let outcome = INSIDE.with(|inside| {
         let outer = inside.replace(true);
         let outcome = catch_unwind(AssertUnwindSafe(body));

@@ -111,7 +111,7 @@ fn unanswered(pairs: usize) -> Vec<Answer> {
     vec![Err(DetectError::NoSuchBody { index: 0, bodies: 0 }); pairs]
 }
 
-/// What stands for a pair that names a body that is not there.
+/// The answer for a pair that names a body that is not there.
 fn refuse(_: usize, answer: &mut Answer, error: DetectError) {
     *answer = Err(error);
 }

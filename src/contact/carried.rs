@@ -9,10 +9,10 @@
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::contact::contact::{Contact, Kind};
-use crate::contact::followed::{MORE_ROUNDING, MOST_OPEN};
 use crate::contact::geometry::{Across, LocalContact};
+use crate::contact::recentred::{MORE_ROUNDING, MOST_OPEN};
 use crate::flags::Flags;
-use crate::linalg::number::{larger, smaller};
+use crate::linalg::number::{gamma, larger, smaller};
 use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::local_model::{self, LocalModel, Piece};
 use crate::model::problem::Problem;
@@ -40,7 +40,7 @@ const CONVERGING: f64 = 0.25;
 
 /// The change that is left is at most this share of the last. It is predicted from two changes and may be ten times as
 /// large: ten times this share is the half that the theorem asks for.
-const TOLD: f64 = 0.05;
+const LAST_CHANGE: f64 = 0.05;
 
 /// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to
 /// ten times too small.
@@ -62,16 +62,15 @@ const MOST_MOVED: f64 = 1e-10;
 /// once for the new place.
 const INHERITED: f64 = 2.0;
 
-/// Share of its reach at which a point is followed: bounds have grown 42 times there, and would grow without limit
-/// towards 1.
+/// Share of the validity radius beyond which the quadratics are set up anew about the point: bounds have grown 42 times
+/// there, and would grow without limit towards 1.
 const MOST_USED: f64 = 0.75;
 
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).
-const SLOPE_ROUNDING: f64 = 16.0 * f64::EPSILON;
+const SLOPE_ROUNDING: f64 = gamma(32);
 
 impl KnownPiece {
-    /// Of the potential of a body as it is, in its own frame, from the quadratic of the model, less what the
-    /// regularisation adds to it.
+    /// The piece of a body's own potential, in its own frame: the quadratic of the model without its regularisation.
     fn of(model: &LocalModel, body: &Body, i: usize) -> Self {
         let q = if i == 0 { &model.q_a } else { &model.q_b };
         let point = &model.points[i];
@@ -82,11 +81,11 @@ impl KnownPiece {
             value: q.expansion - 0.5 * added * point.y.norm_squared(),
             gradient: body.turn(&q.gradient) - added * point.y,
             hessian: body.turn_matrix(&q.hessian.scaled(1.0, -added)),
-            reach: smaller(clear / body.particle.bounds.longest_normal, point.y.norm()),
+            validity_radius: smaller(clear / body.particle.bounds.longest_normal, point.y.norm()),
         }
     }
 
-    /// That of A in the frame of B.
+    /// A piece of A in the frame of B.
     #[inline(always)]
     fn seen_from_b(&self, pair: &Pair) -> Self {
         Self {
@@ -128,7 +127,7 @@ struct Equations {
 
 /// A round of the iteration.
 #[derive(Clone, Copy)]
-struct Round {
+struct Converged {
     step: Step,
     /// Square of the change of the way by it.
     change: f64,
@@ -153,15 +152,15 @@ impl Within {
     }
 
     #[inline(always)]
-    fn of_one(&KnownPiece { from, reach, .. }: &KnownPiece, x: &Vector3<f64>) -> Self {
+    fn of_one(&KnownPiece { from, validity_radius, .. }: &KnownPiece, x: &Vector3<f64>) -> Self {
         let moved = (x - from).norm();
-        Self { moved, share: moved / reach, left: reach - moved }
+        Self { moved, share: moved / validity_radius, left: validity_radius - moved }
     }
 
-    /// What remains of a piece there, along a vector.
+    /// The rest of a piece from there on, along a vector.
     #[inline(always)]
     fn along(&self, piece: &KnownPiece, n: &Vector3<f64>) -> Piece {
-        Piece { curvature: piece.hessian.times(n).dot(n), reach: self.left, ..Piece::default() }
+        Piece { curvature: piece.hessian.times(n).dot(n), validity_radius: self.left, ..Piece::default() }
     }
 }
 
@@ -169,7 +168,7 @@ impl Within {
 #[derive(Clone, Copy)]
 struct Step {
     way: Vector3<f64>,
-    /// Of the weight u.
+    /// Change of the weight u.
     weight: f64,
     /// σ·H⁻¹σ: twice what the slope alone leaves of the weighted sum.
     open: f64,
@@ -215,9 +214,9 @@ impl Equations {
         Step { way, weight, open: self.per_unit * slope.dot(&first), at_weight: -self.per_unit * first }
     }
 
-    /// Their solution to within `room`; `None` where they do not converge.
+    /// The solution of the equations to within `tolerance`; `None` where the rounds do not converge.
     #[inline(always)]
-    fn solve(&self, room: f64) -> Option<Round> {
+    fn solve(&self, tolerance: f64) -> Option<Converged> {
         let mut step = self.step(&self.slope, self.mismatch);
         let mut last = step.way.norm_squared();
         for number in 2..=MOST_ROUNDS {
@@ -229,10 +228,10 @@ impl Equations {
                 return None;
             }
             step = next;
-            // Twice the next change, which must be at most `TOLD` of this one, must be within `room`.
-            let short = 4.0 * TOLD * TOLD * change <= room * room;
-            if short && change * change <= (ENOUGH * room) * (ENOUGH * room) * last {
-                return Some(Round { step, change, number });
+            // Twice the next change, which must be at most `LAST_CHANGE` of this one, must be within `tolerance`.
+            let short = 4.0 * LAST_CHANGE * LAST_CHANGE * change <= tolerance * tolerance;
+            if short && change * change <= (ENOUGH * tolerance) * (ENOUGH * tolerance) * last {
+                return Some(Converged { step, change, number });
             }
             last = change;
         }
@@ -267,8 +266,8 @@ fn moved_by_regularisation(bodies: [&Body; 2], solution: &Solution, settings: &S
 }
 
 impl LastContact {
-    /// Of a pair that was solved in doubles, as an overlap or surely apart; empty where its quadratics do not say
-    /// enough, or where no contact that is carried on could be known as well as the settings ask for.
+    /// The last contact of a pair that was solved in doubles, as an overlap or surely apart; empty where its quadratics
+    /// do not say enough, or where no contact that is carried on could be known as well as the settings ask for.
     pub fn of(call: &Call, Solved { solution, model }: &Solved, scale: Scale, point_bound: f64) -> Self {
         let (pair, bodies, settings) = (call.pair, call.bodies(), call.settings);
         if !(model.in_solver_axes() && solution.linear) {
@@ -281,7 +280,7 @@ impl LastContact {
             return Self::default();
         }
         let pieces = [KnownPiece::of(model, bodies[0], 0), KnownPiece::of(model, bodies[1], 1)];
-        if !pieces.iter().all(|piece| piece.reach > 0.0) {
+        if !pieces.iter().all(|piece| piece.validity_radius > 0.0) {
             return Self::default();
         }
         Self {
@@ -300,23 +299,23 @@ impl LastContact {
         }
     }
 
-    /// The optimum near the last one, if it can be known to within `room`.
+    /// The optimum near the last one, if it can be known to within `tolerance`.
     #[inline(always)]
-    fn optimum(&self, pair: &Pair, pieces: &[KnownPiece; 2], last: &Remembered, room: f64) -> Option<Optimum> {
+    fn optimum(&self, pair: &Pair, pieces: &[KnownPiece; 2], last: &Remembered, tolerance: f64) -> Option<Optimum> {
         let soft = [2.0 * pair.a.sphere_weight, 2.0 * pair.b.sphere_weight];
         let weight = last.lambda / (1.0 + last.lambda);
         let equations = Equations::of(pieces, &last.x, weight, soft)?;
-        let Round { step, change, number } = equations.solve(room)?;
+        let Converged { step, change, number } = equations.solve(tolerance)?;
         let (x, u) = (last.x + step.way, weight + step.weight);
         let here = [pieces[0].at(&x), pieces[1].at(&x)];
-        // What is left there, rounding included.
+        // Residuals there, rounding included.
         let mismatch = here[0].value - here[1].value;
         let next = equations.step(&slope(&here, u), mismatch);
         let way = next.way.norm();
         // The curvatures there, H + δ·E, differ from those that were factored by no more than this share of H.
         let share = step.weight.abs() / smaller(weight, 1.0 - weight);
         let left_out = 1.0 + 2.0 * share * equations.stiffness.sqrt();
-        let converges = way * way <= TOLD * TOLD * change && 2.0 * way * left_out <= room;
+        let converges = way * way <= LAST_CHANGE * LAST_CHANGE * change && 2.0 * way * left_out <= tolerance;
         // A step that is not much shorter must be rounding.
         if !(share <= MOST_CHANGE && (converges || way <= self.point_bound)) {
             return None;
@@ -330,21 +329,21 @@ impl LastContact {
         Some(Optimum { x, u, here, left, rounds: number })
     }
 
-    /// The optimum at new poses, known to within `room`, or, where its point is followed out of the reach of the
-    /// pieces, to within `followed`.
+    /// The optimum at new poses, known to within `tolerance`, or, where its point is followed out of the reach of the
+    /// pieces, to within `recentred`.
     #[inline(always)]
-    fn moved(&mut self, pair: &Pair, last: Remembered, room: f64, followed: f64) -> Option<Moved> {
+    fn moved(&mut self, pair: &Pair, last: Remembered, tolerance: f64, recentred: f64) -> Option<Moved> {
         let mut pieces = [self.pieces[0].seen_from_b(pair), self.pieces[1]];
-        let mut optimum = self.optimum(pair, &pieces, &last, room)?;
+        let mut optimum = self.optimum(pair, &pieces, &last, tolerance)?;
         let mut within = Within::of(&pieces, &optimum.x);
         // Written so that what is not a number is looked at, and fails there.
         if !within.iter().all(|within| within.share <= MOST_USED) {
             let Optimum { x, u, .. } = optimum;
-            self.follow(pair, &x, optimum.square())?;
+            self.recentre(pair, &x, optimum.square())?;
             // From there to the end: what long steps leave may be more than their changes tell.
             pieces = [self.pieces[0].seen_from_b(pair), self.pieces[1]];
             let near = Remembered { x, lambda: u / (1.0 - u), ..last };
-            optimum = self.optimum(pair, &pieces, &near, followed)?;
+            optimum = self.optimum(pair, &pieces, &near, recentred)?;
             within = Within::of(&pieces, &optimum.x);
         }
         Some(Moved { pieces, optimum, within })
@@ -376,7 +375,7 @@ impl LastContact {
         (inside && low > 1.0 && low < f64::INFINITY).then_some(low)
     }
 
-    /// Its contact, frame of B; `None` where it is not certain, or its point not known to within `room`.
+    /// Its contact, frame of B; `None` where it is not certain, or its point not known to within `tolerance`.
     #[inline(always)]
     fn local(
         &self,
@@ -384,15 +383,15 @@ impl LastContact {
         pieces: &[KnownPiece; 2],
         optimum: &Optimum,
         within: [Within; 2],
-        room: f64,
+        tolerance: f64,
     ) -> Option<LocalContact> {
         let Optimum { x, u, here: [a, b], left, rounds } = optimum;
         let (values, gradients) = ([a.value, b.value], [a.gradient, b.gradient]);
         let (scale, grown) = self.scale(optimum, &within)?;
         let steep = SLOPE_ROUNDING * left.stiffness * (within[0].moved + within[1].moved);
-        // That of the pieces, which are turned back and forth, and that of this place.
+        // The bound of the pieces, which are turned back and forth, and that of this place.
         let bound = (1.0 + grown) * self.point_bound + 2.0 * left.way + steep;
-        if !(scale.high < 1.0 && bound <= room) {
+        if !(scale.high < 1.0 && bound <= tolerance) {
             return None;
         }
         let lambda = u / (1.0 - u);
@@ -426,9 +425,9 @@ impl PairState {
         }
         let pair = Pair::new(a.0, a.1, b.0, b.1);
         let radius = smaller(a.0.bounding_radius(), b.0.bounding_radius());
-        let room = settings.carry_tolerance * radius;
-        let Moved { pieces, optimum, within } = known.moved(&pair, last, room, MOST_OPEN * radius)?;
-        let local = known.local(&pair, &pieces, &optimum, within, room)?;
+        let tolerance = settings.carry_tolerance * radius;
+        let Moved { pieces, optimum, within } = known.moved(&pair, last, tolerance, MOST_OPEN * radius)?;
+        let local = known.local(&pair, &pieces, &optimum, within, tolerance)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
         self.remember(Remembered { x, lambda, ..last });
         let call = Contact { flags: Flags::WARM.with(Flags::CARRIED), iterations: optimum.rounds, ..Contact::UNKNOWN };
@@ -450,8 +449,8 @@ impl PairState {
             return None;
         }
         let pair = Pair::new(a.0, a.1, b.0, b.1);
-        let room = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
-        let Moved { optimum, within, .. } = self.last_contact.moved(&pair, last, room, room)?;
+        let tolerance = settings.carry_tolerance * smaller(a.0.bounding_radius(), b.0.bounding_radius());
+        let Moved { optimum, within, .. } = self.last_contact.moved(&pair, last, tolerance, tolerance)?;
         let low = self.last_contact.low(&optimum, &within)?;
         let (x, lambda) = (optimum.x, optimum.u / (1.0 - optimum.u));
         self.remember(Remembered { x, lambda, how: How::Apart, ..last });
@@ -470,7 +469,7 @@ struct Moved {
     within: [Within; 2],
 }
 
-/// Where the rounds ended, frame of B.
+/// The point at which the rounds ended, frame of B.
 struct Optimum {
     x: Vector3<f64>,
     u: f64,
@@ -487,13 +486,13 @@ impl Optimum {
     }
 }
 
-/// What is left there.
+/// Residuals at the optimum.
 struct Left {
-    /// Of S.
+    /// Residual of S.
     square: f64,
     /// Bound on the length of the next step, in whatever direction the curvatures have changed.
     way: f64,
-    /// The same to the minimum of the weighted sum, with the weight as it is.
+    /// Bound on the length of the step to the minimum of the weighted sum, with the weight as it is.
     at_weight: f64,
     /// Ratio of the sum of the curvatures to the least one.
     stiffness: f64,

@@ -8,7 +8,7 @@ use crate::flags::Flags;
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
 use crate::model::problem::Problem;
-use crate::pair::hull;
+use crate::pair::minimum_norm_point;
 use crate::pair::pair::Pair;
 use crate::pair::pair_state::{How, LastContact, PairState, Remembered, from_memory_or_anew};
 use crate::pair::separation::{self, Apart};
@@ -126,7 +126,7 @@ fn anew<'o>(
 #[inline(always)]
 fn still_apart(a: (&Particle, &Pose), b: (&Particle, &Pose), last: &Remembered) -> Option<Apart> {
     match last.how {
-        How::Balanced => hull::still_balanced(a, b, &last.x, &last.closest),
+        How::Balanced => minimum_norm_point::still_balanced(a, b, &last.x, &last.closest),
         _ => separation::still_apart(a, b, &last.x),
     }
 }
@@ -160,11 +160,11 @@ fn solved(
     // Unpacked again: a copy through memory would stall the proofs of separation.
     let mut last = state.as_deref().filter(|_| remembers).map(|state| state.unpacked());
     if let Some(last) = last.as_mut().filter(|_| pair.b.is_in_plane()) {
-        // Of another pair it may lie elsewhere, and z stays 0 only from there on.
+        // A point remembered of another pair may lie elsewhere, and z stays 0 only from 0 on.
         last.x.z = 0.0;
     }
-    // Where planes in balance kept sharp bodies apart, such planes are looked for again. Where none did, they are
-    // closer than planes can tell.
+    // If planes in balance kept sharp bodies apart, such planes are looked for again. If none did, the bodies are too
+    // close for a proof by planes.
     let last = last.filter(|last| last.how != How::Balanced || settings.solve_separated() || !call.is_sharp());
     let start = match last {
         Some(last) => {
@@ -198,14 +198,15 @@ fn solved(
     let scale = call.scale(&midway.solution, Problem::Midway);
     let separated = midway.solution.ending == Ending::Separated;
     if !separated && scale.s >= 1.0 && scale.low < 1.0 && settings.raises_regularisation() {
-        // Where the bulge of a raised regularisation may hide an overlap, the particles as they are decide.
+        // If the bulge of a raised regularisation may hide an overlap, the particles without it decide.
         let flat_regularisation = Settings::default().flat_regularisation;
-        // Of a contact with other settings than were given nothing is carried on.
+        // Nothing is carried on: the settings were changed.
         let settings = Settings { flat_regularisation, carry_tolerance: 0.0, ..*settings };
         let contact = solved(pair, pose_b, &settings, state, remembers)?;
         return Ok(Contact { flags: contact.flags.with(Flags::DEFAULT_REGULARISATION), ..contact });
     }
-    // What is proved apart may have any upper bound; a raised regularisation was asked for with the gap that it leaves.
+    // A pair that is proved apart may have any upper bound; a raised regularisation was asked for with the gap that it
+    // leaves.
     if !separated && scale.is_undecided(settings.raises_regularisation()) {
         return Err(SolveError::Undecided { low: scale.low, high: scale.high }.into());
     }
@@ -218,7 +219,7 @@ fn solved(
     let carries_on = settings.carries_on() && !call.flags.contains(Flags::EXTENDED);
     if separated {
         if let Some(state) = state.as_deref_mut().filter(|_| carries_on && scale.s - scale.gap > 1.0) {
-            // Nobody asks for its point.
+            // The point is not needed.
             state.last_contact = LastContact::of(&call, &midway, scale, 0.0);
         }
         remember(state, remembered);
@@ -230,8 +231,8 @@ fn solved(
     let points = if settings.formulation == Formulation::Closest { call.closest(&midway)? } else { None };
     let local = match &points {
         Some(points) => {
-            // By rounding, midway and closest may lie on different sides of 1. Where midway does not tell, the scales
-            // that are answered do.
+            // By rounding, midway and closest may lie on different sides of 1. If midway is undecided, the scales of
+            // the answer decide.
             let overlapping = if scale.tells_the_side() { overlapping } else { closest::is_overlap(points) };
             remembered.how = How::solved(overlapping);
             remembered = closest::seen_from(remembered, values, points);
@@ -259,7 +260,7 @@ fn known_distance(pair: &Pair, low: f64) -> f64 {
     separation::proof_of_separation(pair).map_or(by_scale, |proof| larger(proof.distance, by_scale))
 }
 
-/// What a call has cost, and who answered.
+/// The cost of a call, and who answered.
 fn summary(call: &Call) -> Contact {
     Contact { flags: call.flags, iterations: call.iterations, back_end: call.back_end, ..Contact::UNKNOWN }
 }

@@ -33,10 +33,10 @@ pub(crate) struct LocalContact {
     surface: Option<Surface>,
 }
 
-/// Where the surfaces are.
+/// Places of both surfaces.
 #[derive(Clone, Copy, Debug)]
 enum Surface {
-    /// So far from the contact point along the normal, and against it.
+    /// Distances from the contact point along the normal, and against it.
     Along(f64, f64),
     /// P1 and P2.
     At(Vector3<f64>, Vector3<f64>),
@@ -52,7 +52,7 @@ impl LocalContact {
         Self::along_normal(call.pair, &midway.solution, across, scale, bound, pieces)
     }
 
-    /// The same from the bound of the point and, where the particles overlap, S_A and S_B along the vector of `across`:
+    /// Midway from the bound of its point and, where the particles overlap, S_A and S_B along the vector of `across`:
     /// on the quadratics at P3 the surface is a square root away.
     #[inline(always)]
     pub fn along_normal(
@@ -98,13 +98,13 @@ impl LocalContact {
         let across =
             Across::of(pair, &[p1.gradients[0], p2.gradients[1]], [p1.gradient_norms[0], p2.gradient_norms[1]]);
         let way = p1.x - p2.x;
-        // What lies beyond 1 by rounding is taken back to it, which counts as error.
-        let told = |s: f64| if overlapping { smaller(s, LARGEST_BELOW_1) } else { larger(s, 1.0) };
-        let gap = |scale: &Scale| scale.gap + (told(scale.s) - scale.s).abs();
+        // An s beyond 1 by rounding is taken back to 1, which counts as error.
+        let consistent = |s: f64| if overlapping { smaller(s, LARGEST_BELOW_1) } else { larger(s, 1.0) };
+        let gap = |scale: &Scale| scale.gap + (consistent(scale.s) - scale.s).abs();
         Self {
             formulation: Formulation::Closest,
-            s: told(p2.scale.s),
-            s_b: told(p1.scale.s),
+            s: consistent(p2.scale.s),
+            s_b: consistent(p1.scale.s),
             lambda: p2.lambda,
             gap: gap(&p2.scale).max(gap(&p1.scale)),
             point_bound: p2.bound.max(p1.bound),
@@ -119,7 +119,7 @@ impl LocalContact {
         self.point_bound
     }
 
-    /// In world axes; what is not of the geometry is taken from `call`.
+    /// Fills the geometric fields of `call`, in world axes; the others stay.
     #[inline(always)]
     pub fn placed(&self, pair: &Pair, pose_b: &Pose, call: Contact) -> Contact {
         let (normal, branch_b) = (pose_b.rotate(&self.normal), pose_b.rotate(&self.point));
@@ -197,11 +197,12 @@ impl Across {
     }
 
     /// Distance to the surface where S is this piece, of this slope along the vector: by the quadratic, or from the
-    /// place that it gives. A piece of no reach proves nothing, not even that a point with S = 1 lies on the surface.
+    /// place that it gives. A piece without a validity radius proves nothing, not even that a point with S = 1 lies on
+    /// the surface.
     #[inline(always)]
     fn way(&self, value: f64, piece: Piece, slope: f64, from_there: impl Fn(f64) -> Option<f64>) -> Option<f64> {
         let way = self.length * ray_cast::root_of_piece(value - piece.surplus - 1.0, slope, piece.curvature);
-        if way.abs() < piece.reach { Some(way) } else { from_there(way) }
+        if way.abs() < piece.validity_radius { Some(way) } else { from_there(way) }
     }
 }
 
@@ -225,12 +226,12 @@ impl<'a> Ray<'a> {
         Self { particle: pair.b, from: *x, outwards: -normal, shift: body::shift_in_b(x.norm()) }
     }
 
-    /// How far the surface is, near a guess.
+    /// Distance to the surface, near a guess.
     fn way(&self, guess: f64) -> Option<f64> {
         ray_cast::distance_near(self.particle, &self.from, &self.outwards, guess).or_else(|| self.beside())
     }
 
-    /// The same from a point of the body within twice the rounding of the beginning.
+    /// Distance to the surface from a point of the body within twice the rounding of the beginning.
     #[cold]
     fn beside(&self) -> Option<f64> {
         ray_cast::distance_beside(self.particle, &self.from, &self.outwards, self.shift)

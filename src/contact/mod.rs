@@ -27,7 +27,7 @@
 //! |---|---|
 //! | `contact`, `error` | the answer, and why there is none |
 //! | `geometry` | point, normal and overlap from a solution |
-//! | `followed` | the quadratics of a contact whose point has left their reach |
+//! | `recentred` | the quadratics of a contact whose point has left their validity radius, about its new place |
 //! | `carried` | the last contact carried on to new poses |
 //! | `detect` | the whole of a call |
 //! | `closest_point` | one closest point alone |
@@ -39,5 +39,5 @@ pub(crate) mod closest_point;
 pub(crate) mod contact;
 pub(crate) mod detect;
 pub(crate) mod error;
-pub(crate) mod followed;
 pub(crate) mod geometry;
+pub(crate) mod recentred;

@@ -6,6 +6,7 @@ use super::answer::{
 use super::closest::ClosestPoints;
 use super::field::{Place, Potential};
 use super::midway::AlongNormal;
+use super::numbers::LOST_ACROSS;
 use super::optimum::{FieldWeights, Kind as Problem, Optimum, normal_at};
 use super::surface::SurfacePoint;
 use crate::contact::closest_point::closest_point;
@@ -335,9 +336,6 @@ impl<'a> Task<'a, '_> {
         Ok(then(&self.closest_points([optimum(0)?, optimum(1)?])))
     }
 }
-
-/// Relative rounding of P1 − P2 above which 32 digits are used.
-const LOST_ACROSS: f64 = 1e-12;
 
 /// What P1 and P2 are.
 const ON: [Problem; 2] = [Problem::OnA, Problem::OnB];

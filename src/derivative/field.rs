@@ -8,6 +8,7 @@ use crate::linalg::symmetric::Symmetric;
 use crate::linalg::wide::Wide;
 use crate::pair::body::shift_in_a;
 use crate::pair::extended_body;
+use crate::pair::local_point::PlaneList;
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
 use crate::particle::potential::{Sums, Weights};
@@ -35,39 +36,7 @@ pub(super) struct Place<'a, N: Single = f64> {
     /// Planes with |depth| up to this are active if they are listed: a stiff plane carries its share with a depth below
     /// the rounding of the point. 0 where the sign of the depth decides.
     blur: f64,
-    listed: Listed,
-}
-
-/// Places of planes, of which there are few.
-#[derive(Clone, Copy, Default)]
-struct Listed {
-    places: [u16; MOST_LISTED],
-    count: u8,
-}
-
-const MOST_LISTED: usize = 8;
-
-impl Listed {
-    fn contains(&self, place: usize) -> bool {
-        self.places[..usize::from(self.count)].contains(&(place as u16))
-    }
-
-    fn add(&mut self, place: usize) {
-        if let Some(slot) = self.places.get_mut(usize::from(self.count)) {
-            // Places fit: a particle has no more planes than `MAX_PLANES`.
-            *slot = place as u16;
-            self.count += 1;
-        }
-    }
-
-    fn remove(&mut self, place: usize) {
-        let kept = *self;
-        *self = Self::default();
-        kept.places[..usize::from(kept.count)]
-            .iter()
-            .filter(|p| usize::from(**p) != place)
-            .for_each(|p| self.add((*p).into()));
-    }
+    listed: PlaneList,
 }
 
 /// (Regularised) S about a point, in given axes.
@@ -110,7 +79,7 @@ impl<'a> Place<'a> {
     #[inline(always)]
     pub fn new(body: &'a Potential<'a>, branch: Vector3<f64>, [error, from]: [f64; 2]) -> Self {
         let rounding = f64::EPSILON * (branch.norm() + from);
-        Self { body, branch, error, rounding, blur: 0.0, listed: Listed::default() }
+        Self { body, branch, error, rounding, blur: 0.0, listed: PlaneList::default() }
     }
 }
 
@@ -118,8 +87,8 @@ impl<'a> Place<'a, DoubleDouble> {
     /// A point that is to be refined.
     pub fn precise(body: &'a Potential<'a, DoubleDouble>, branch: Wide) -> Self {
         let blur = rounding_in_doubles(body.particle, branch.map(DoubleDouble::rounded).norm());
-        let place = Self { body, branch, error: 0.0, rounding: 0.0, blur, listed: Listed::default() };
-        let mut listed = Listed::default();
+        let place = Self { body, branch, error: 0.0, rounding: 0.0, blur, listed: PlaneList::default() };
+        let mut listed = PlaneList::default();
         place.visit_near(&place.local(), |plane, _, depth| {
             if depth.rounded().abs() <= place.blur {
                 listed.add(plane);
@@ -224,7 +193,7 @@ impl<'a, N: Single> Place<'a, N> {
     /// S about the point in the axes that are the columns of a matrix, world axes.
     #[inline(always)]
     pub fn field(&self, axes: &Matrix3<N>) -> Field<N> {
-        // Written out: products of generic matrices are no loops that compilers unroll.
+        // Unrolled by hand: compilers do not unroll products of generic matrices.
         let axis = |i: usize| self.body.local(&axes.column(i).into_owned());
         let (first, second, normal) = (axis(0), axis(1), axis(2));
         let turn = |v: &Vector3<N>| Vector3::new(dot3(&first, v), dot3(&second, v), dot3(&normal, v));

@@ -37,6 +37,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what derivatives are tuned by |
 //! | `answer` | derivatives in the poses, weights on a contact, gradients in the shape |
 //! | `field` | a potential at a point, and its derivatives in pose and shape |
 //! | `optimum` | how an optimum moves with the potentials, forward and reverse |
@@ -54,6 +55,7 @@ mod closest;
 mod contact;
 mod field;
 mod midway;
+mod numbers;
 mod optimum;
 mod patch;
 mod rows;

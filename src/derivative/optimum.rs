@@ -5,6 +5,7 @@
 
 use super::answer::{DerivativeError, DerivativeFlags};
 use super::field::{Field, Place, Potential, dot3};
+use super::numbers::{CONVERGED, GRADED, IMPRECISE, LOST, Limits, RUN};
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::least_axis;
 use crate::linalg::number::Single;
@@ -23,24 +24,6 @@ pub(super) enum Kind {
     /// Least S_A on a part of a boundary with this number of coordinates, along the first axes.
     OnBoundary(usize),
 }
-
-/// Where the least curvature across the normal is below this share of the sum, the axes are aligned with the
-/// curvatures, so that it keeps its digits.
-const GRADED: f64 = 1e-4;
-
-/// Relative rounding of depths from which on numbers of 32 digits are taken, and from which few digits are right.
-const LOST: f64 = 1e-13;
-const IMPRECISE: f64 = 1e-5;
-
-/// Run of the point by rounding from which on they are taken, too.
-const RUN: f64 = 1e-10;
-
-/// Most steps of Newton's method in 32 digits, from a point that is right to the digits of a double.
-const MOST_STEPS: usize = 30;
-
-/// Change of the normals at which they have converged, and below which they have if a further step changes them no
-/// less: the rest is rounding.
-const CONVERGED: [f64; 2] = [1e-24, 1e-13];
 
 /// An optimum with its linearised optimality conditions.
 pub(super) struct Optimum<'a, N: Single = f64> {
@@ -395,7 +378,7 @@ impl<'a> Optimum<'a, DoubleDouble> {
                 a.drop_a_pulling_plane() | b.drop_a_pulling_plane()
             };
             let dropped = converged && pulling(&mut places);
-            if (converged && !dropped) || steps >= MOST_STEPS {
+            if (converged && !dropped) || steps >= Limits::NEWTON_STEPS {
                 optimum.flags.set(DerivativeFlags::IMPRECISE, !converged);
                 optimum.check()?;
                 return Ok(optimum);

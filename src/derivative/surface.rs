@@ -2,13 +2,11 @@
 
 use super::answer::DerivativeError;
 use super::field::Place;
+use super::numbers::Limits;
 use super::optimum::ByMotion;
 use super::rows::ByA;
 use crate::linalg::number::Single;
 use nalgebra::{Matrix3, Vector3};
-
-/// Most corrections of a surface point that is given to the rounding of its position in the world.
-const MOST_CORRECTIONS: usize = 6;
 
 /// A surface point P = x + way·n of a body: S(P) = 1. Components along the axes of the optimum x.
 pub(super) struct SurfacePoint<'a, N: Single = f64> {
@@ -34,7 +32,7 @@ impl<'a, N: Single> SurfacePoint<'a, N> {
             if !correction.is_finite() {
                 return Err(DerivativeError::NoGradient);
             }
-            if correction.approximate().abs() <= rounding || corrections == MOST_CORRECTIONS {
+            if correction.approximate().abs() <= rounding || corrections == Limits::CORRECTIONS {
                 return Ok(Self { place, way, gradient });
             }
             way += correction;

@@ -12,6 +12,12 @@ use std::ops::Neg;
 /// Two doubles on which the same is done at once.
 pub type Twin = AutoF64x2;
 
+/// Bound on the relative rounding of a result of fewer than this many operations, in doubles: γ(n) = n u/(1 − n u) of n
+/// operations lies below (n + 1) u, u = ε/2.
+pub(crate) const fn gamma(operations: u32) -> f64 {
+    operations as f64 * (0.5 * f64::EPSILON)
+}
+
 /// A vector of which nothing is known.
 pub(crate) const UNKNOWN_VECTOR: Vector3<f64> = unknown_vector();
 
@@ -20,7 +26,7 @@ pub(crate) const fn unknown_vector<const N: usize>() -> SVector<f64, N> {
     SVector::from_array_storage(ArrayStorage([[f64::NAN; N]]))
 }
 
-/// A number, or two of them in lanes. What is asked of a number is asked of both.
+/// A number, or two of them in lanes. A predicate holds if it holds for both.
 pub trait Number:
     Scalar + Copy + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + ClosedDivAssign + Neg<Output = Self>
 {

@@ -4,7 +4,7 @@ use crate::linalg::number::{Number, Twin};
 use nalgebra::{Matrix3, Vector3};
 
 /// Share of the trace from which an eigenvalue can be told from the rounding of the determinant.
-const LEAST_TOLD: f64 = 1e-7;
+const LEAST_DETERMINED: f64 = 1e-7;
 
 /// Bound on that rounding where it can: the products of the determinant are at most tr³, and γ₈ of their sum is
 /// 1e-14·tr³ at most, where the determinant is 2.5e-8·tr³ (estimated).
@@ -110,14 +110,14 @@ impl Symmetric {
     }
 
     /// Lower bound of the least eigenvalue of a matrix that has none below 0, given its determinant: the other two
-    /// multiply to (½·tr)² at most, so that it is at least 4·det/tr². 0 where that is less than [`LEAST_TOLD`] of the
-    /// trace.
+    /// multiply to (½·tr)² at most, so that it is at least 4·det/tr². 0 where that is less than [`LEAST_DETERMINED`] of
+    /// the trace.
     #[inline]
     pub(crate) fn least_eigenvalue(&self, determinant: f64) -> f64 {
         let trace = self.trace();
         let least = 4.0 * determinant / (trace * trace) * (1.0 - DETERMINANT_ROUNDING);
         // More than the trace is the infinity of a determinant beyond the range of numbers.
-        if least > LEAST_TOLD * trace && least <= trace { least } else { 0.0 }
+        if least > LEAST_DETERMINED * trace && least <= trace { least } else { 0.0 }
     }
 
     /// The matrix of minors with their signs: the inverse times the determinant.

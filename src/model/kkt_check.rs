@@ -1,6 +1,6 @@
 //! Whether the active set of a local model is still right after a step: the KKT check.
 
-use crate::linalg::number::smaller;
+use crate::linalg::number::{gamma, smaller};
 use crate::pair::body::Body;
 use crate::pair::local_point::LocalPoint;
 use crate::particle::potential::Quadratic;
@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 
 /// Bound on the rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum (docs/theory.md,
 /// "Rounding").
-pub(crate) const DEPTH_ROUNDING: f64 = 14.0 * f64::EPSILON;
+pub(crate) const DEPTH_ROUNDING: f64 = gamma(28);
 
 /// Factor on a distance to a plane: so far below 1 that the rounding of the distance does not hide that the plane
 /// switches.

@@ -14,13 +14,13 @@ use nalgebra::{Matrix3, Vector3};
 /// In which axes the quadratics are summed and factored.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Axes {
-    /// Those of B.
+    /// The axes of B.
     OfB,
-    /// Aligned with the stiffest planes of each point whose active planes leave a soft direction; else those of B.
+    /// Aligned with the stiffest planes of each point whose active planes leave a soft direction; else the axes of B.
     Graded,
-    /// Of a boundary: its own, as many as a point of it has coordinates.
+    /// On a boundary: one axis for each coordinate of its points.
     OfBoundary(usize),
-    /// The same, aligned with the planes that are stiffest along it.
+    /// On a boundary, aligned with the planes that are stiffest along it.
     GradedOnBoundary(usize),
 }
 
@@ -178,8 +178,9 @@ impl LocalModel {
         let (n, moved) = (self.to_axes(n), (x - self.x).norm());
         let piece = |body: &Body, q: &Quadratic| {
             let exact = q.expansion <= NEAR_SURFACE;
-            let reach = if exact { q.clear / body.particle.bounds.longest_normal - moved } else { 0.0 };
-            let piece = Piece { curvature: q.hessian.times(&n).dot(&n), reach: CLEAR * reach, ..Piece::default() };
+            let clear = if exact { q.clear / body.particle.bounds.longest_normal - moved } else { 0.0 };
+            let piece =
+                Piece { curvature: q.hessian.times(&n).dot(&n), validity_radius: CLEAR * clear, ..Piece::default() };
             if body.is_plain() {
                 return piece;
             }
@@ -264,7 +265,7 @@ pub(crate) struct Piece {
     pub surplus: f64,
     pub surplus_gradient: Vector3<f64>,
     /// Distance either way within which no plane switches, length.
-    pub reach: f64,
+    pub validity_radius: f64,
 }
 
 /// A step to the optimum of the quadratics at a point.

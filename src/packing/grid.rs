@@ -1,5 +1,6 @@
 //! Which boxes are near a box: a grid of cells, each with the boxes that reach into it.
 
+use super::numbers::Limits;
 use nalgebra::Vector3;
 use std::ops::Range;
 
@@ -10,15 +11,12 @@ pub(crate) struct Grid {
     cells: Vec<Vec<u32>>,
 }
 
-/// More cells than this are not made, however small the bodies and however flat the region.
-const MOST_CELLS: f64 = 4e6;
-
 impl Grid {
     /// Of a region, with cells of about this edge.
     pub fn new(lower: Vector3<f64>, upper: Vector3<f64>, mut edge: f64) -> Self {
         let widths = upper - lower;
         let counts = |edge: f64| widths.map(|width| (width / edge).ceil().max(1.0));
-        while counts(edge).product() > MOST_CELLS {
+        while counts(edge).product() > Limits::CELLS {
             edge *= 1.25;
         }
         let counts: [usize; 3] = counts(edge).map(|count| count as usize).into();
@@ -75,7 +73,9 @@ mod tests {
     fn cells_are_few_in_regions_of_any_shape() {
         for upper in [[100.0, 100.0, 1e-4], [1e9, 1e-9, 1e-9], [1e100, 1e100, 1e100], [1.0, 1.0, 1.0]] {
             let grid = Grid::new(Vector3::zeros(), upper.into(), 1e-4);
-            assert!(grid.cells.len() as f64 <= MOST_CELLS && grid.counts.iter().product::<usize>() == grid.cells.len());
+            assert!(
+                grid.cells.len() as f64 <= Limits::CELLS && grid.counts.iter().product::<usize>() == grid.cells.len()
+            );
         }
     }
 

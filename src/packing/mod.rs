@@ -6,6 +6,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what packing is tuned by |
 //! | `error` | why nothing can be packed |
 //! | `container` | a box or an upright cylinder, and whether it holds a particle |
 //! | `sizes` | distributions of size, by number, by mass or as a grading curve |
@@ -19,6 +20,7 @@
 mod container;
 mod error;
 mod grid;
+mod numbers;
 mod pack;
 mod pile;
 mod scattered;

@@ -4,6 +4,7 @@
 //! places in order. A body whose place is taken looks again in the next round. How many look at once does not depend on
 //! the number of threads, nor does the packing.
 
+use super::numbers::{Limits, ROOM};
 use crate::contact::batch::{CHUNK, in_parallel};
 use crate::packing::container::Container;
 use crate::packing::error::PackError;
@@ -53,19 +54,6 @@ pub struct Placement {
     pub pose: Pose,
 }
 
-/// Bodies without a place, one after the other, after which no further one is tried.
-const GIVE_UP: usize = 64;
-
-/// Most bodies.
-const MOST_BODIES: usize = 10_000_000;
-
-/// Share of the container's cross-section, in squares of the bodies' widths, that a body has for itself in a round:
-/// with less, many would find their places taken.
-const ROOM: f64 = 32.0;
-
-/// Bodies that look for their places at once, at most.
-const MOST_AT_ONCE: f64 = 64.0;
-
 /// Fills a container with bodies of random orientation that do not overlap, as [`crate::detect`] decides.
 ///
 /// `progress` is called after each round with all bodies so far, in the order in which they found their places. When it
@@ -101,11 +89,11 @@ pub fn pack(
     }
     let supply = Supply::new(shapes, sizes, how.margin)?;
     let width = supply.typical_width();
-    let at_once = (container.area() / (ROOM * width * width)).clamp(1.0, MOST_AT_ONCE) as usize;
+    let at_once = (container.area() / (ROOM * width * width)).clamp(1.0, Limits::AT_ONCE) as usize;
     let mut rounds = Rounds { pile: Pile::new(*container, width), placements: Vec::new(), failures: 0 };
     let mut queue = queue(&supply, container, how)?;
     let (mut looking, mut stopped) = (Vec::new(), false);
-    while !stopped && rounds.failures < GIVE_UP {
+    while !stopped && rounds.failures < Limits::FAILURES {
         let missing = at_once.saturating_sub(looking.len());
         looking.extend(queue.by_ref().take(missing).map(Seeker::new));
         if looking.is_empty() {
@@ -134,8 +122,8 @@ fn queue<'a>(
     // More bodies than the smallest would fill the container with need no place, nor memory.
     let most = container.volume() / (std::f64::consts::FRAC_PI_6 * supply.least_diameter().powi(3));
     let number = how.number.map_or(f64::INFINITY, |number| number as f64).min(most.ceil());
-    if !(number <= MOST_BODIES as f64) {
-        return Err(PackError::TooMany { number, most: MOST_BODIES });
+    if !(number <= Limits::BODIES as f64) {
+        return Err(PackError::TooMany { number, most: Limits::BODIES });
     }
     let bodies = supply.bodies(how.seed).take(number as usize);
     Ok(match how.arrangement {

@@ -1,5 +1,6 @@
 //! The bodies that have their place, and whether one more fits at a pose.
 
+use super::numbers::NEIGHBOURS_HOLD;
 use crate::contact::contact::Kind;
 use crate::contact::detect::detect;
 use crate::packing::container::Container;
@@ -54,13 +55,10 @@ pub(crate) struct Trial<'a> {
     numbers: Vec<u32>,
 }
 
-/// How far a body may move, in bounding radii, before neighbours are looked up again.
-const REACH: f64 = 0.5;
-
 impl<'a> Trial<'a> {
     pub fn new(pile: &'a Pile, particle: &'a Particle) -> Self {
         let from = Vector3::from_element(f64::NAN);
-        let reach = REACH * particle.bounding_radius();
+        let reach = NEIGHBOURS_HOLD * particle.bounding_radius();
         Self { pile, particle, settings: Settings::default(), near: Vec::new(), from, reach, numbers: Vec::new() }
     }
 

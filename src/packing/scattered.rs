@@ -1,18 +1,16 @@
 //! A place anywhere in the container: random sequential addition.
 
+use super::numbers::Limits;
 use crate::packing::pile::{Pile, Trial};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Poses that are tried. At the densities at which most of them fail, ten times as many would place few bodies more.
-const TRIES: usize = 5_000;
-
 /// The first of many random poses at which the body fits.
 pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
     let mut trial = Trial::new(pile, particle);
-    (0..TRIES).find_map(|_| {
+    (0..Limits::POSES).find_map(|_| {
         let position = pile.container.point(random);
         let pose = placed(position, &random.orientation())?;
         trial.fits(&pose).then_some(pose)

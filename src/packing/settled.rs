@@ -5,29 +5,13 @@
 //! move in five is made (Rechenberg's rule), and the walk ends when they have become short. Whether two bodies pass
 //! through each other on the way does not matter, but for where they come to rest.
 
+use super::numbers::{FALLS, FIRST_STEP, GROWTH, LAST_STEP, Limits, SHRINKAGE};
 use crate::packing::pile::{Pile, Trial};
 use crate::packing::scattered::placed;
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
-
-/// Falls of one body, of which the lowest place counts.
-const FALLS: usize = 4;
-
-/// Poses above the pile that are tried for the start of a fall.
-const STARTS: usize = 30;
-
-/// Moves of a walk, at most.
-const MOVES: usize = 300;
-
-/// Steps in bounding radii: the first of a walk, and one so short that the walk ends.
-const FIRST: f64 = 0.5;
-const LAST: f64 = 2e-3;
-
-/// Growth of the step by a move that fits, shrinkage by one that does not: one growth balances four shrinkages.
-const GROWTH: f64 = 1.5;
-const SHRINKAGE: f64 = 0.903_602; // 1.5^(-1/4)
 
 /// The lowest place that a few falls have found.
 pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
@@ -68,7 +52,7 @@ impl Place {
 /// A random place clear of the pile, or as high as the container allows.
 fn start(pile: &Pile, trial: &mut Trial, random: &mut Random) -> Option<Place> {
     let radius = trial.particle.bounding_radius();
-    (0..STARTS).find_map(|_| {
+    (0..Limits::STARTS).find_map(|_| {
         let mut place = Place { position: pile.container.point(random), turn: random.orientation() };
         let (_, upper) = trial.particle.bounding_box(&place.pose()?);
         let highest = pile.container.upper().z - (upper.z - place.position.z);
@@ -82,7 +66,7 @@ fn start(pile: &Pile, trial: &mut Trial, random: &mut Random) -> Option<Place> {
 fn fall(trial: &mut Trial, from: Place) -> Place {
     let radius = trial.particle.bounding_radius();
     let (mut place, mut step) = (from, radius);
-    while step > FIRST * radius / 4.0 {
+    while step > FIRST_STEP * radius / 4.0 {
         let below = place.moved(-step * Vector3::z());
         if below.fits(trial) {
             (place, step) = (below, 2.0 * step);
@@ -95,8 +79,8 @@ fn fall(trial: &mut Trial, from: Place) -> Place {
 
 fn walk(trial: &mut Trial, from: Place, random: &mut Random) -> Place {
     let radius = trial.particle.bounding_radius();
-    let (mut place, mut step) = (from, FIRST);
-    for _ in 0..MOVES {
+    let (mut place, mut step) = (from, FIRST_STEP);
+    for _ in 0..Limits::MOVES {
         let mut direction = random.direction();
         direction.z = -direction.z.abs();
         let mut next = place.moved(step * radius * direction);
@@ -109,7 +93,7 @@ fn walk(trial: &mut Trial, from: Place, random: &mut Random) -> Place {
         } else {
             step *= SHRINKAGE;
         }
-        if step < LAST {
+        if step < LAST_STEP {
             break;
         }
     }

@@ -1,5 +1,6 @@
 //! Distributions of size.
 
+use super::numbers::ADD_UP;
 use crate::packing::error::PackError;
 
 /// How large the bodies are, by number. The size of a body is the diameter of a ball of its volume.
@@ -27,9 +28,6 @@ struct Class {
     /// Share by number of this class and all before it.
     up_to: f64,
 }
-
-/// Off by which shares may add up to 1: of shares written with a few digits.
-const ADD_UP: f64 = 1e-6;
 
 impl Sizes {
     /// Every shape in the size that it has.

@@ -1,5 +1,6 @@
 //! The bodies that are to be placed, one after the other.
 
+use super::numbers::LEAST_ENLARGEMENT;
 use crate::linalg::root::{Bracket, halved};
 use crate::packing::error::PackError;
 use crate::packing::sizes::Sizes;
@@ -34,10 +35,6 @@ struct Measured<'a> {
     /// Radius of a ball about the centre within the shape.
     inner: f64,
 }
-
-/// Least share by which a body is enlarged while it is packed: the finished bodies are as far apart, so that no other
-/// rounding of their planes makes them overlap.
-const LEAST_ENLARGEMENT: f64 = 1e-6;
 
 /// The golden ratio less 1: its multiples fill [0, 1) more evenly than random numbers.
 const GOLDEN: f64 = 0.618_033_988_749_894_8;

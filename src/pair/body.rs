@@ -103,7 +103,7 @@ impl<'a> Body<'a> {
         self.centre
     }
 
-    /// A large n·x − d and the place of its plane (see [`crate::particle::shape::Shape::likely_excess`]).
+    /// A large n·x − d and the place of its plane (see [`crate::particle::solid::Solid::likely_excess`]).
     #[inline]
     pub fn likely_excess(&self, x: &Vector3<f64>) -> (f64, usize) {
         self.particle.likely_excess(&self.local(x))

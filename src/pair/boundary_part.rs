@@ -6,7 +6,7 @@
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::graded_basis::any_across;
-use crate::linalg::number::{Number, larger};
+use crate::linalg::number::{Number, gamma, larger};
 use crate::linalg::wide::{Wide, difference, rounded, wide};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector2, Vector3};
@@ -216,7 +216,7 @@ impl<'a> PlacedPart<'a> {
 
 /// Bound on the rounding of a side in the frame of a part, relative to its length: that of a difference, and of a
 /// product with the rounded axes.
-const OF_DIRECTION: f64 = 8.0 * f64::EPSILON;
+const OF_DIRECTION: f64 = gamma(16);
 
 /// The steepest fall between two sides with these falls along them, `sum` the length of the sum of their unit vectors:
 /// a direction between them is a sum of both with shares that add up to at least 1, and at most 2/`sum`.

@@ -6,7 +6,7 @@
 
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::line::Line;
-use crate::linalg::number::{Number, larger, smaller};
+use crate::linalg::number::{Number, gamma, larger, smaller};
 use crate::linalg::sine_and_cosine::sine_and_cosine;
 use crate::linalg::symmetric::Symmetric;
 use crate::linalg::wide::{Wide, difference, rounded, wide};
@@ -22,7 +22,7 @@ use nalgebra::{Matrix3, Vector3};
 const ROUNDING: f64 = 64.0;
 
 /// Bound on the rounding of a depth in doubles, relative to its terms: 3ε are derived.
-const OF_DEPTH: f64 = 8.0 * f64::EPSILON;
+const OF_DEPTH: f64 = gamma(16);
 
 /// Bound on the rounding of e + n·δ, or of a depth after a step, in the same units.
 pub(crate) const DEPTH_AFTER: f64 = 8.0;

@@ -2,8 +2,44 @@
 
 use nalgebra::Vector3;
 
-/// Most planes that may be left out of the active set at one point.
+/// Most planes that may be left out of the active set at one point, or listed.
 const MOST_DROPPED: usize = 8;
+
+/// A few planes by their places.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PlaneList {
+    places: [u16; MOST_DROPPED],
+    count: u8,
+}
+
+impl PlaneList {
+    #[inline]
+    pub fn contains(&self, place: usize) -> bool {
+        self.places[..usize::from(self.count)].contains(&(place as u16))
+    }
+
+    /// Without effect when it is full.
+    pub fn add(&mut self, place: usize) {
+        if let Some(slot) = self.places.get_mut(usize::from(self.count)) {
+            // Places fit: a particle has no more planes than `MAX_PLANES`.
+            *slot = place as u16;
+            self.count += 1;
+        }
+    }
+
+    pub fn remove(&mut self, place: usize) {
+        let kept = *self;
+        *self = Self::default();
+        kept.places[..usize::from(kept.count)]
+            .iter()
+            .filter(|p| usize::from(**p) != place)
+            .for_each(|p| self.add((*p).into()));
+    }
+
+    fn is_full(&self) -> bool {
+        usize::from(self.count) == MOST_DROPPED
+    }
+}
 
 /// A point in a particle's own frame, with the bounds on its rounding, and the active set there.
 #[derive(Clone, Copy, Debug)]
@@ -18,39 +54,30 @@ pub(crate) struct LocalPoint {
     /// A plane is active if n·y − d > −blur: a stiff plane carries its share of the force with a depth below rounding.
     pub blur: f64,
     /// Planes with |n·y − d| ≤ blur and a negative multiplier after a step: they are not active.
-    dropped: [u16; MOST_DROPPED],
-    count: u8,
+    dropped: PlaneList,
 }
 
 impl LocalPoint {
     /// With no plane dropped.
     pub fn new(y: Vector3<f64>, shift: f64, blur: f64) -> Self {
-        Self { y, shift, blur, dropped: [0; MOST_DROPPED], count: 0 }
+        Self { y, shift, blur, dropped: PlaneList::default() }
     }
 
     /// Whether the plane at this place, with this n·y − d, is active.
     #[inline]
     pub fn is_active(&self, place: usize, excess: f64) -> bool {
-        excess > -self.blur && (self.count == 0 || excess > self.blur || !self.dropped().contains(&(place as u16)))
+        excess > -self.blur && (self.dropped.count == 0 || excess > self.blur || !self.dropped.contains(place))
     }
 
     /// Excludes the plane at this place from the active set while its n·y − d is within the blur; without effect when
     /// too many are excluded.
     pub fn drop(&mut self, place: usize) {
-        if let Some(slot) = self.dropped.get_mut(usize::from(self.count)) {
-            // Places fit: a particle has no more planes than `MAX_PLANES`.
-            *slot = place as u16;
-            self.count += 1;
-        }
+        self.dropped.add(place);
     }
 
     /// Whether no further plane can be dropped.
     pub fn is_full(&self) -> bool {
-        usize::from(self.count) == MOST_DROPPED
-    }
-
-    fn dropped(&self) -> &[u16] {
-        &self.dropped[..usize::from(self.count)]
+        self.dropped.is_full()
     }
 }
 

@@ -27,14 +27,14 @@
 //! | `body` | a particle in the frame of the pair: S, its quadratic at a point, bounds on their rounding |
 //! | `extended_body` | the same in 32 digits, about a point of reference |
 //! | `separation` | separation tests by balls, faces and tangents |
-//! | `hull` | planes of both particles in balance, and the separation test by them |
+//! | `minimum_norm_point` | planes of both particles in balance, and the separation test by them |
 //! | `pair_state` | what an ordered pair keeps from call to call |
 
 pub mod body;
 pub mod boundary_part;
 pub mod extended_body;
-pub mod hull;
 pub mod local_point;
+pub mod minimum_norm_point;
 pub mod pair;
 pub mod pair_state;
 pub mod role;

@@ -44,8 +44,9 @@ pub(crate) struct Remembered {
     /// Ratio of weights λ = u/(1−u).
     pub lambda: f64,
     pub how: How,
-    /// For [`How::Balanced`] the planes, as [`crate::pair::hull::Hull::places`]. Else the λ of P1 and P2 over those
-    /// that `solver::closest::from_between` predicts; used where the products are in the range of λ.
+    /// For [`How::Balanced`] the planes, as [`crate::pair::minimum_norm_point::MinimumNorm::places`]. Else the ratios
+    /// of the λ of P1 and P2 to the ones that `solver::closest::from_between` predicts; used where the products are in
+    /// the range of λ.
     pub closest: [f64; 2],
 }
 
@@ -97,7 +98,7 @@ pub(crate) struct KnownPiece {
     pub hessian: Symmetric,
     /// Distance from there within which no plane switches and points are rounded by no more than three times as much,
     /// length.
-    pub reach: f64,
+    pub validity_radius: f64,
 }
 
 /// A guess of λ lies in this range: beyond it one particle's weight is lost in rounding altogether.
@@ -181,8 +182,8 @@ impl LastContact {
     /// Whether it is of these two particles, with finite bounds.
     #[inline(always)]
     pub fn is_of(&self, a: &Particle, b: &Particle) -> bool {
-        // Where the rest is not finite, neither is S.
-        let bounds = (self.pieces[0].reach + self.pieces[1].reach) + (self.gap + self.point_bound);
+        // Other fields that are not finite make S not finite.
+        let bounds = (self.pieces[0].validity_radius + self.pieces[1].validity_radius) + (self.gap + self.point_bound);
         self.of == [a.serial(), b.serial()] && bounds.is_finite()
     }
 }
@@ -281,7 +282,7 @@ mod tests {
             |last| &mut last.pieces[1].value,
             |last| &mut last.pieces[0].gradient.x,
             |last| &mut last.pieces[1].hessian.zy,
-            |last| &mut last.pieces[0].reach,
+            |last| &mut last.pieces[0].validity_radius,
             |last| &mut last.gap,
             |last| &mut last.point_bound,
         ];

@@ -4,14 +4,11 @@
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
 use crate::pair::pair::Pair;
+use crate::particle::numbers::MARGIN;
 use crate::particle::particle::Particle;
 use crate::particle::potential;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
-
-/// Bound on the rounding of the sums below, relative to the lengths in them: 45ε, of which they need 40
-/// (docs/theory.md, "Rounding").
-pub(crate) const MARGIN: f64 = 1e-14;
 
 /// A proof that two particles share no point.
 #[derive(Clone, Copy, Debug)]
@@ -85,14 +82,14 @@ pub(crate) fn still_apart(
     // What rounding can do: to the distances of the planes, and with them to the values and the slope.
     let lengths = 2.0 * (to_a + to_b + particle_a.bounds.offset_within(to_a) + particle_b.bounds.offset_within(to_b));
     let blur = MARGIN * lengths;
-    // Of a plane whose normal is longer than 1 it does that much more.
+    // A plane whose normal is longer than 1 blurs by so much more.
     let [blur_a, blur_b] = [particle_a, particle_b].map(|particle| blur * larger(particle.bounds.longest_normal, 1.0));
     let doubt = |t: &potential::Tangent, blur: f64| blur * (t.pull + t.stiffness * (blur + reach)) + MARGIN * t.value;
     let least = a.value + lambda * b.value - slope * reach - doubt(&a, blur_a) - lambda * doubt(&b, blur_b);
     if !(lambda > 0.0 && least > 1.0 + lambda) {
         return None;
     }
-    // λ|∇S_B| is the projection of ∇S_A, and no longer.
+    // λ|∇S_B| is the projection of ∇S_A, so that it is not longer than ∇S_A.
     let steepest = gradient_a.norm() + larger(blur_a * a.stiffness, lambda * (blur_b * b.stiffness));
     Some(Apart::new(Flags::BY_MEMORY, (least - (1.0 + lambda)) / steepest))
 }

@@ -1,10 +1,11 @@
 //! A polyhedron, a ball and a box that hold a particle: what the cheap tests rely on.
 //!
-//! They are estimated, not proved: corners are exact to the relative error [`SLACK`] if the three normals that meet
-//! there have a condition number κ ≤ 1e8 (the error of a 3×3 solve by cofactors is some 10·κ·ε), and [`MARGIN`] is ten
-//! times as much, for that and for merged corners. Three planes closer to a common direction than this may give a
-//! corner that is lost.
+//! They are estimated, not proved: corners are exact to the relative error [`CORNER_SLACK`] if the three normals that
+//! meet there have a condition number κ ≤ 1e8 (the error of a 3×3 solve by cofactors is some 10·κ·ε), and
+//! [`BOUND_MARGIN`] is ten times as much, for that and for merged corners. Three planes closer to a common direction
+//! than this may give a corner that is lost.
 
+use super::numbers::{BOUND_MARGIN, CORNER_SLACK, FIRST_CUBE, Limits, NEARBY, SQUARABLE};
 use crate::linalg::number::{larger, smaller};
 use crate::particle::linear_program;
 use nalgebra::{Matrix3, Vector3};
@@ -49,27 +50,6 @@ pub(crate) struct Extent {
     dimensions: usize,
 }
 
-/// Most planes whose corners are enumerated; further ones only make the polyhedron smaller.
-const MOST_FACES: usize = 24;
-
-/// Relative error of a corner. A corner is kept when a face cuts off less than this, which makes the polyhedron larger
-/// at most.
-const SLACK: f64 = 1e-6;
-
-/// Half the edge of the largest cube considered, length: the square of its diagonal is still finite.
-const LARGEST: f64 = 1e150;
-
-/// Half the edge of the cube tried first, in distances of the farthest face: the corners of few particles lie beyond
-/// it.
-const WIDE: f64 = 8.0;
-
-/// Distance in radii within which planes count as nearby.
-const NEARBY: f64 = 4.0;
-
-/// Factor by which bounds are enlarged. It covers the error of a corner and the corner into which it was merged, each
-/// at most [`SLACK`].
-const MARGIN: f64 = 1.0 + 1e-5;
-
 impl Extent {
     /// From the weights of S and S(0).
     pub fn new(plane_weight: f64, sphere_weight: f64, at_origin: f64, dimensions: usize) -> Self {
@@ -97,12 +77,12 @@ impl Bounds {
             let all: Vec<_> = (0..planes.len()).filter_map(face).collect();
             let few = if all.len() == faces.len() { enclosed(&faces, dimensions) } else { None };
             few.or_else(|| {
-                let half = linear_program::half_cube(&all, dimensions).filter(|half| *half <= LARGEST)?;
+                let half = linear_program::half_cube(&all, dimensions).filter(|half| *half <= SQUARABLE)?;
                 Some((half, corners(&faces, half, dimensions)))
             })?
         };
         let farthest = corners.iter().map(|c| c.norm()).fold(0.0, f64::max);
-        let radius = farthest.min(sphere_reach) * MARGIN;
+        let radius = farthest.min(sphere_reach) * BOUND_MARGIN;
         let offsets = || planes.iter().map(|(_, d)| *d);
         let lengths = || planes.iter().map(|(n, _)| n.norm());
         let (least_offset, longest_normal) = (offsets().fold(f64::INFINITY, f64::min), lengths().fold(0.0, f64::max));
@@ -114,8 +94,8 @@ impl Bounds {
         // Its square is a weight of the solvers.
         (radius * radius).is_normal().then(|| Self {
             radius,
-            corners: corners.into_iter().map(|c| c * MARGIN).collect(),
-            merged: SLACK * farthest * MARGIN,
+            corners: corners.into_iter().map(|c| c * BOUND_MARGIN).collect(),
+            merged: CORNER_SLACK * farthest * BOUND_MARGIN,
             longest_offset: offsets().map(f64::abs).fold(0.0, f64::max),
             least_offset,
             longest_normal,
@@ -124,7 +104,7 @@ impl Bounds {
             shortest_normal: lengths().fold(f64::INFINITY, f64::min),
             shortest_nearby: lengths()
                 .zip(offsets())
-                .filter(|(length, offset)| *offset <= length * NEARBY * radius * MARGIN)
+                .filter(|(length, offset)| *offset <= length * NEARBY * radius * BOUND_MARGIN)
                 .fold(f64::INFINITY, |least, (length, _)| least.min(length)),
             face_reach,
             growth: by_faces.min(1.0 / (1.0 - s_origin)),
@@ -207,16 +187,16 @@ impl Bounds {
     }
 }
 
-/// Up to [`MOST_FACES`] planes whose normals lie far from each other (farthest-point sampling).
+/// Up to [`Limits::FACES`] planes whose normals lie far from each other (farthest-point sampling).
 fn spread(planes: &[(Vector3<f64>, f64)]) -> Vec<usize> {
     let count = planes.len();
-    if count <= MOST_FACES {
+    if count <= Limits::FACES {
         return (0..count).collect();
     }
     let unit = |i: usize| planes[i].0.normalize();
     let mut chosen = vec![0];
     let mut nearest: Vec<f64> = (0..count).map(|i| unit(i).dot(&unit(0))).collect();
-    while chosen.len() < MOST_FACES {
+    while chosen.len() < Limits::FACES {
         let next = (0..count).min_by(|&i, &j| nearest[i].total_cmp(&nearest[j])).unwrap_or(0);
         chosen.push(next);
         for (i, cosine) in nearest.iter_mut().enumerate() {
@@ -246,7 +226,7 @@ pub(super) fn planes_enclose(rows: &[[f64; 4]], dimensions: usize) -> bool {
 /// A cube that holds {n·x ≤ h} in its interior, as half its edge, with the corners; `None` if the cube tried is none.
 fn enclosed(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<(f64, Vec<Vector3<f64>>)> {
     let farthest = faces.iter().map(|(_, h)| *h).fold(0.0, f64::max);
-    let half = (WIDE * farthest).min(LARGEST);
+    let half = (FIRST_CUBE * farthest).min(SQUARABLE);
     let corners = corners(faces, half, dimensions);
     // A convex set that does not touch the surface of the cube has no part beyond it.
     (!corners.is_empty() && corners.iter().all(|c| c.amax() < 0.99 * half)).then_some((half, corners))
@@ -256,9 +236,9 @@ fn enclosed(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<(f64, Ve
 /// In two dimensions the cube has no height, so that every corner has z = 0.
 fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<Vector3<f64>> {
     // In units of the nearest face, rounded to a power of two, no square underflows or overflows.
-    let nearest = faces.iter().map(|(_, h)| *h).fold(half, f64::min).max(half / LARGEST);
+    let nearest = faces.iter().map(|(_, h)| *h).fold(half, f64::min).max(half / SQUARABLE);
     let unit = nearest.log2().floor().exp2();
-    let mut all: Vec<_> = faces.iter().map(|(n, h)| (*n, (h / unit).min(LARGEST))).collect();
+    let mut all: Vec<_> = faces.iter().map(|(n, h)| (*n, (h / unit).min(SQUARABLE))).collect();
     for axis in 0..3 {
         let half = if axis < dimensions { half / unit } else { 0.0 };
         for sign in [1.0, -1.0] {
@@ -278,7 +258,7 @@ fn corners(faces: &[(Vector3<f64>, f64)], half: f64, dimensions: usize) -> Vec<V
                 if !(corner.norm() <= 2.0 * half / unit) {
                     continue;
                 }
-                let slack = SLACK * corner.norm();
+                let slack = CORNER_SLACK * corner.norm();
                 // Planes through one line may have an inverse by rounding; its point lies on none of them.
                 let met = [i, j, k].iter().all(|&face| (all[face].0.dot(&corner) - all[face].1).abs() <= slack);
                 let kept = met && all.iter().all(|(n, h)| n.dot(&corner) <= h + slack);

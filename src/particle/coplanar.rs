@@ -6,21 +6,10 @@
 //! above it, and each face is judged by its own corners, so that nothing accumulates over chains of faces. A body that
 //! lies within this distance of one of its faces is flat.
 
+use super::numbers::{COPLANAR, LEAST_COSINE, NO_AREA};
 use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// Distance at which faces are one, as a share of the extent, the largest edge of the box about the body. The numbers
-/// of a binary .stl file are good to 6e-8.
-pub(crate) const COPLANAR: f64 = 1e-6;
-
-/// Area, over the square of the extent, up to which a face has none: its normal is rounding, and may point inwards. The
-/// product of two edges is known to some 12 ε of that square.
-const NO_AREA: f64 = 32.0 * f64::EPSILON;
-
-/// Least cosine between the normals of faces that are one. The normal of a sliver is rounding, but lies between those
-/// of its neighbours, and so within 60° of one of them unless they meet in a sharp edge.
-const LEAST_COSINE: f64 = 0.5;
 
 /// A face of a convex body.
 pub(crate) struct Face<F> {

@@ -2,11 +2,9 @@
 //!
 //! A cutter is reused from cut to cut: it keeps its buffers, so that cutting allocates nothing.
 
+use super::numbers::Limits;
 use crate::particle::polyhedron::Corner;
 use nalgebra::Vector3;
-
-/// Up to this many edges are matched by looking at all of them; more are sorted.
-const FEW: usize = 24;
 
 /// An edge that the plane cuts, from a corner that is kept to one that is removed.
 #[derive(Clone, Copy, Debug)]
@@ -118,13 +116,13 @@ impl Cutter {
         let Self { edges, following, preceding, by_right, .. } = self;
         let count = edges.len();
         following.clear();
-        if count > FEW {
+        if count > Limits::UNSORTED_EDGES {
             by_right.clear();
             by_right.extend(edges.iter().enumerate().map(|(i, edge)| (edge.right, i as u32)));
             by_right.sort_unstable();
         }
         for edge in edges.iter() {
-            let found = if count > FEW {
+            let found = if count > Limits::UNSORTED_EDGES {
                 let end = by_right.partition_point(|(right, _)| *right <= edge.left);
                 by_right[..end].last().filter(|(right, _)| *right == edge.left).map(|(_, i)| *i)
             } else {

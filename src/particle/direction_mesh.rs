@@ -10,10 +10,11 @@
 //! The quadrilaterals share corners and edges, so that each direction is covered once whatever rounding does to the
 //! corners, if one that is folded over counts as negative.
 
-use crate::particle::neighbours::{self, LEAST};
+use super::numbers::{FACES_APART, Limits};
+use crate::particle::neighbours;
 use crate::particle::outlines::Outline;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
 
 /// A quadrilateral: p(u, v) is bilinear in 0 ≤ u, v ≤ 1.
@@ -26,9 +27,6 @@ pub(crate) struct Patch {
     /// Where v is divided to begin with: 0 < `cuts[0]` < `cuts[1]` < 1, or both 0.
     cuts: [f64; 2],
 }
-
-/// Most faces that are always followed: fewer than the cells that most bodies need.
-const FEW: usize = 1_000;
 
 impl Patch {
     fn of(corners: [Vector3<f64>; 4], normal: &Vector3<f64>, cuts: [f64; 2]) -> Self {
@@ -66,11 +64,11 @@ impl Patch {
 }
 
 /// Patches along the faces of a particle, or along those of a cube where there are many and most are all rounding.
-pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
+pub(crate) fn of(shape: &Solid) -> Vec<Patch> {
     let rows = if shape.is_sphere() { &[] } else { &shape.rows[..] };
     let mut faces = neighbours::polyhedron(rows, &shape.bounds).outlines();
     let mut divided: Vec<Option<Vec<Patch>>> = faces.iter().map(|face| with_strips(&face, shape)).collect();
-    if faces.len() > FEW && 2 * divided.iter().flatten().count() < faces.len() {
+    if faces.len() > Limits::FOLLOWED_FACES && 2 * divided.iter().flatten().count() < faces.len() {
         faces = Polyhedron::cube(shape.bounds.radius, 0.0).outlines();
         divided = vec![None; faces.len()];
     }
@@ -82,7 +80,7 @@ pub(crate) fn of(shape: &Shape) -> Vec<Patch> {
 }
 
 /// Unit normal and height of a face.
-fn plane(shape: &Shape, number: usize) -> (Vector3<f64>, f64) {
+fn plane(shape: &Solid, number: usize) -> (Vector3<f64>, f64) {
     let radius = shape.bounds.radius;
     if number < OF_CUBE {
         return (Vector3::ith(number / 2, [1.0, -1.0][number % 2]), radius);
@@ -98,7 +96,7 @@ fn triangles(rim: &[Vector3<f64>], normal: &Vector3<f64>) -> Vec<Patch> {
 }
 
 /// The inner part of a face as triangles, and a strip along each edge, if there are such.
-fn with_strips(face: &Outline<'_>, shape: &Shape) -> Option<Vec<Patch>> {
+fn with_strips(face: &Outline<'_>, shape: &Solid) -> Option<Vec<Patch>> {
     let normal = plane(shape, face.number).0;
     let inner = inner(face, &normal, shape)?;
     let mut patches = triangles(&inner, &normal);
@@ -107,18 +105,18 @@ fn with_strips(face: &Outline<'_>, shape: &Shape) -> Option<Vec<Patch>> {
         let corners = [inner[i], inner[next], face.corners[i], face.corners[next]];
         patches.push(Patch::of(corners, &normal, cuts(face, i, shape)));
     }
-    let least = -LEAST * shape.bounds.radius.powi(2);
+    let least = -FACES_APART * shape.bounds.radius.powi(2);
     patches.iter().all(|patch| patch.least_area() >= least).then_some(patches)
 }
 
 /// Normal and offset of the plane beyond the edge from corner i of a face; `None` for the cube.
-fn beyond(face: &Outline<'_>, i: usize, shape: &Shape) -> Option<(Vector3<f64>, f64)> {
+fn beyond(face: &Outline<'_>, i: usize, shape: &Solid) -> Option<(Vector3<f64>, f64)> {
     let plane = face.beyond[i].checked_sub(OF_CUBE)?;
     Some((shape.normal(plane), shape.offset(plane)))
 }
 
 /// For each corner of a face the point where the planes beyond both of its edges begin to be active.
-fn inner(face: &Outline<'_>, normal: &Vector3<f64>, shape: &Shape) -> Option<Vec<Vector3<f64>>> {
+fn inner(face: &Outline<'_>, normal: &Vector3<f64>, shape: &Solid) -> Option<Vec<Vector3<f64>>> {
     let count = face.corners.len();
     let of_corner = |i: usize| {
         let at = face.corners[i];
@@ -133,7 +131,7 @@ fn inner(face: &Outline<'_>, normal: &Vector3<f64>, shape: &Shape) -> Option<Vec
 }
 
 /// Where on the edge from corner i the planes beyond the edges before and after it cease to be active.
-fn cuts(face: &Outline<'_>, i: usize, shape: &Shape) -> [f64; 2] {
+fn cuts(face: &Outline<'_>, i: usize, shape: &Solid) -> [f64; 2] {
     let count = face.corners.len();
     let (from, to) = (&face.corners[i], &face.corners[(i + 1) % count]);
     let share = |edge: usize, here: &Vector3<f64>, there: &Vector3<f64>| {

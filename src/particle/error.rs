@@ -1,6 +1,6 @@
 //! Why planes and parameters do not make a particle.
 
-use crate::particle::mass_properties::LEAST_TOLERANCE;
+use crate::particle::numbers::LEAST_TOLERANCE;
 use crate::particle::plane::MAX_PLANES;
 use thiserror::Error;
 

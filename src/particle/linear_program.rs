@@ -12,41 +12,8 @@
 //!
 //! for every x that the half-spaces hold, whatever rounding did on the way. Taken for all axes this bounds |x|_∞.
 
+use super::numbers::{DUAL_ROUNDING, LARGEST_RESIDUAL, Limits, OPTIMA_CUBE, PIVOT, TINY_EXTENT, UNDECIDED};
 use nalgebra::{Matrix3, Matrix4, Vector3, Vector4};
-
-/// Half the edge of the cube in which optima are sought, in distances of the farthest face. An optimum on the cube
-/// means unbounded: with unit normals a larger polyhedron has multipliers above 1e9, which [`LARGEST_RESIDUAL`]
-/// refuses.
-const CUBE: f64 = 1e10;
-
-/// Part of the terms of a·x − h below which its sign is not trusted. Far above rounding, so that planes through one
-/// corner are not taken to cut each other off; what is overlooked is covered by the dual bound.
-const UNDECIDED: f64 = 1e-12;
-
-/// Steps with the half-space that cuts most; from then on the first one enters, and the first leaves, which never leads
-/// in circles (Bland).
-const STEEPEST: usize = 200;
-
-/// Changes of a multiplier below this share of the largest are rounding: with such a half-space leaving, the others
-/// would be dependent.
-const PIVOT: f64 = 1e-9;
-
-/// Rounding of multipliers, in units of 1.
-const SLACK: f64 = 1e-12;
-
-/// Most steps: far more than any body has taken.
-const MOST_STEPS: usize = 100_000;
-
-/// Rounding in the dual bound, in units of the multipliers' sum: γ₄ = 2ε for each of the three components of ρ, with
-/// |n|₁ ≤ √3 together 3.5ε; as much for the normalisation of n; one more for h and the sum.
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// Largest |ρ|₁ at which the half-spaces count as bounded. The half edge is then right to 1e-6, and two planes that
-/// face each other at an angle below 2e-9 count as parallel.
-const LARGEST_RESIDUAL: f64 = 1e-6;
-
-/// Part of the scale below which an extent is so small that the units may have cost digits.
-const TINY: f64 = 1e-100;
 
 /// a and h of a half-space a·x ≤ h.
 pub(super) type HalfSpace = (Vector4<f64>, f64);
@@ -58,14 +25,14 @@ pub(super) fn maximiser(
     c: &Vector4<f64>,
     mut basis: [usize; 4],
 ) -> Option<(Vector4<f64>, [usize; 4])> {
-    for step in 0..MOST_STEPS {
+    for step in 0..Limits::PIVOTS {
         let columns = Matrix4::from_columns(&basis.map(|i| all[i].0));
         let x = columns.transpose().lu().solve(&Vector4::from(basis.map(|i| all[i].1)))?;
         let mut entering = None;
         for (i, (a, h)) in all.iter().enumerate() {
             let terms = a.component_mul(&x);
             let (cut, size) = (terms.sum() - h, terms.abs().sum() + h.abs());
-            if cut > UNDECIDED * size && entering.is_none_or(|(_, most)| step < STEEPEST && cut > most) {
+            if cut > UNDECIDED * size && entering.is_none_or(|(_, most)| step < Limits::STEEPEST_PIVOTS && cut > most) {
                 entering = Some((i, cut));
             }
         }
@@ -75,9 +42,9 @@ pub(super) fn maximiser(
         let least = PIVOT * change.amax();
         let falling = || (0..4).filter(|&j| change[j] > least);
         // Weights that reach 0 together, within rounding (Harris): of them the one that falls fastest leaves.
-        let first = falling().map(|j| (weights[j].max(0.0) + SLACK) / change[j]).fold(f64::INFINITY, f64::min);
+        let first = falling().map(|j| (weights[j].max(0.0) + UNDECIDED) / change[j]).fold(f64::INFINITY, f64::min);
         let together = falling().filter(|&j| weights[j].max(0.0) <= first * change[j]);
-        let leaving = if step < STEEPEST {
+        let leaving = if step < Limits::STEEPEST_PIVOTS {
             together.max_by(|&i, &j| change[i].total_cmp(&change[j]))?
         } else {
             together.min_by_key(|&j| basis[j])?
@@ -100,9 +67,9 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Opt
         let half = extent(&scaled, dimensions)? * scale;
         let before = faces.len();
         // A face further off than the cube's corners plays no part: not in the scale either.
-        if half < TINY * scale {
-            // In those units `half` may underflow; TINY does not.
-            faces.retain(|(_, h)| *h < (2.0 * half).max(TINY * scale));
+        if half < TINY_EXTENT * scale {
+            // In those units `half` may underflow; TINY_EXTENT does not.
+            faces.retain(|(_, h)| *h < (2.0 * half).max(TINY_EXTENT * scale));
         }
         if faces.len() == before {
             return Some(half);
@@ -114,7 +81,7 @@ pub(crate) fn half_cube(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Opt
 fn extent(faces: &[(Vector3<f64>, f64)], dimensions: usize) -> Option<f64> {
     // Of the cube its upper faces, then its lower ones; in place of unknowns that are not there, planes that hold them
     // at 0.
-    let axis = |i: usize| (Vector4::ith(i, 1.0), if i < dimensions { CUBE } else { 0.0 });
+    let axis = |i: usize| (Vector4::ith(i, 1.0), if i < dimensions { OPTIMA_CUBE } else { 0.0 });
     let cube = (0..4).map(axis).chain((0..4).map(axis).map(|(a, h)| (-a, h)));
     let all: Vec<HalfSpace> = cube.chain(faces.iter().map(|(n, h)| (n.push(0.0), *h))).collect();
     let (mut most, mut residual): (f64, f64) = (0.0, 0.0);
@@ -152,8 +119,8 @@ fn dual_bound(
         column += 1;
     }
     let y = normals.lu().solve(e)?.map(|weight| weight.max(0.0));
-    let residual = (e - normals * y).abs().sum() + ROUNDING * (1.0 + y.sum());
-    Some((y.dot(&distances) * (1.0 + ROUNDING), residual))
+    let residual = (e - normals * y).abs().sum() + DUAL_ROUNDING * (1.0 + y.sum());
+    Some((y.dot(&distances) * (1.0 + DUAL_ROUNDING), residual))
 }
 
 #[cfg(test)]

@@ -18,10 +18,11 @@
 //! the largest bound is halved in the direction that has the larger part of it, until the bounds of all cells add up to
 //! less than the tolerance.
 
+use super::numbers::{ALIKE, LEAST_PART, LEAST_TOLERANCE, Limits, OF_SUMS, SAME_UNITS};
 use crate::particle::direction_mesh::{self, Patch};
-use crate::particle::gauge::{Activity, Gauge, OnRay, Piece, Undecided};
+use crate::particle::minkowski_gauge::{Activity, Gauge, OnRay, Piece, Undecided};
 use crate::particle::quadrature::{self, POINTS, RULE};
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::{Matrix3, SVector, Vector3};
 use std::collections::BinaryHeap;
 
@@ -43,27 +44,6 @@ pub struct MassProperties {
 
 /// Default tolerance of volume, centroid and inertia, relative.
 pub const MASS_TOLERANCE: f64 = 1e-6;
-
-/// Least relative tolerance: where this is not enough, rounding leaves no more digits.
-pub(crate) const LEAST_TOLERANCE: f64 = 1e-12;
-
-/// Most cells, some seconds of work for some tens of planes; and most planes evaluated on all rays together, some tens
-/// of seconds.
-const MOST_CELLS: usize = 200_000;
-const MOST_WORK: usize = 1_000_000_000;
-
-/// Where the two parts of its error differ by less than this factor, a cell is halved in both directions.
-const ALIKE: f64 = 4.0;
-
-/// Least share of the tolerance that is left to the cells, where rounding takes more than all of it.
-const LEAST_PART: f64 = 0.1;
-
-/// Factor by which the units of the errors may be off, and how often these units are computed again.
-const SAME_UNITS: f64 = 1.05;
-const MOST_UNITS: usize = 8;
-
-/// Rounding of a sum of moments, relative.
-pub(crate) const OF_SUMS: f64 = 4.0 * f64::EPSILON;
 
 /// V, ∫x dV (3), and xx, yy, zz, xy, yz, zx of ∫x xᵀ dV.
 type Moments = SVector<f64, 10>;
@@ -101,17 +81,17 @@ struct Node {
 }
 
 /// Volume, centroid and inertia to a relative tolerance of at least [`LEAST_TOLERANCE`].
-pub(crate) fn of(shape: &Shape, tolerance: f64) -> MassProperties {
+pub(crate) fn of(shape: &Solid, tolerance: f64) -> MassProperties {
     let tolerance = tolerance.max(LEAST_TOLERANCE);
     let gauge = Gauge::of(shape);
     let patches = direction_mesh::of(shape);
     let (mut cells, mut norm) = first_pass(&gauge, &patches);
-    for _ in 0..MOST_UNITS {
+    for _ in 0..Limits::UNITS {
         let left = tolerance / SAME_UNITS - norm.of_sums();
         let (refined, error) = refined(cells, &gauge, &patches, &norm, left.max(LEAST_PART * tolerance));
         let found = Norm::of(&sum(&refined));
         let change = norm.change_to(&found);
-        if change <= SAME_UNITS || refined.len() >= MOST_CELLS {
+        if change <= SAME_UNITS || refined.len() >= Limits::CELLS {
             return properties(&sum(&refined), change * error + found.of_sums());
         }
         // Cells so coarse that they missed most of the particle gave units of another one.
@@ -132,7 +112,7 @@ fn refined(cells: Vec<Cell>, gauge: &Gauge, patches: &[Patch], norm: &Norm, tole
     let mut error = total(&cells);
     let mut heap = BinaryHeap::from(cells);
     let mut work: usize = heap.iter().map(|cell| cell.work).sum();
-    while error > tolerance && heap.len() < MOST_CELLS && work < MOST_WORK {
+    while error > tolerance && heap.len() < Limits::CELLS && work < Limits::WORK {
         let Some(worst) = heap.pop() else { break };
         // What is left is rounding.
         if worst.error() <= worst.rounding {

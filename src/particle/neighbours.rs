@@ -1,13 +1,11 @@
 //! Which planes are neighbours on the polyhedron that holds a particle. From neighbour to neighbour a farthest plane is
 //! found without visiting most of the others.
 
+use super::numbers::FACES_APART;
 use crate::particle::bounding_volumes::Bounds;
 use crate::particle::cutter::Cutter;
 use crate::particle::polyhedron::{OF_CUBE, Polyhedron};
 use nalgebra::Vector3;
-
-/// Least height of a face and least depth of a cut, over the bounding radius: far more than the rounding of corners.
-pub(super) const LEAST: f64 = 1e-9;
 
 /// For each plane those whose faces share an edge with its own; none of a plane without a face.
 #[derive(Clone, Debug, Default)]
@@ -46,7 +44,7 @@ impl Neighbours {
 /// number [`OF_CUBE`] + i.
 pub(super) fn polyhedron(rows: &[[f64; 4]], bounds: &Bounds) -> Polyhedron {
     let radius = bounds.radius;
-    let (mut polyhedron, mut cutter) = (Polyhedron::cube(radius, LEAST * radius), Cutter::default());
+    let (mut polyhedron, mut cutter) = (Polyhedron::cube(radius, FACES_APART * radius), Cutter::default());
     for (place, [a, b, c, d]) in rows.iter().enumerate() {
         let (normal, height) = face(&Vector3::new(*a, *b, *c), *d, bounds);
         polyhedron.cut(&mut cutter, OF_CUBE + place, &normal, height);
@@ -56,7 +54,7 @@ pub(super) fn polyhedron(rows: &[[f64; 4]], bounds: &Bounds) -> Polyhedron {
 
 /// Unit normal and height of the face of a plane.
 pub(super) fn face(n: &Vector3<f64>, d: f64, bounds: &Bounds) -> (Vector3<f64>, f64) {
-    (n.normalize(), ((d + bounds.face_reach) / n.norm()).max(LEAST * bounds.radius))
+    (n.normalize(), ((d + bounds.face_reach) / n.norm()).max(FACES_APART * bounds.radius))
 }
 
 #[cfg(test)]

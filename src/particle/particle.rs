@@ -1,10 +1,10 @@
-//! A potential particle: the public interface to a [`Shape`].
+//! A potential particle: the public interface to a [`Solid`].
 
 use crate::linalg::number;
 pub use crate::particle::error::ParticleError;
 pub use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::polygon::Polygon;
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use crate::particle::{potential, ray_cast};
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
@@ -38,7 +38,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// ```
 #[derive(Clone, Debug)]
 pub struct Particle {
-    shape: Shape,
+    shape: Solid,
     serial: u64,
 }
 
@@ -51,7 +51,7 @@ impl Particle {
     /// square leaves the range of f64, an origin that is not inside (f(0) ≥ 0), for k = 0 an unbounded shape, one that
     /// reaches more than 1e150·r/√(1−k) from its centre, and one that reaches less than 1e-30 or more than 1e30.
     pub fn new(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
-        Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 3)?))
+        Ok(Self::of(Solid::new(planes, r, k, shadow_radius, 3)?))
     }
 
     /// A particle in the plane z = 0, from its lines a·x + b·y = d (rows a, b, d, with outward normals), rounding
@@ -107,7 +107,7 @@ impl Particle {
 
     /// Of planes (a, b, 0, d) the cut at z = 0.
     fn cut(planes: &[Plane], r: f64, k: f64, shadow_radius: f64) -> Result<Self, ParticleError> {
-        Ok(Self::of(Shape::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?))
+        Ok(Self::of(Solid::new(planes, r, k, shadow_radius, 2).map_err(ParticleError::of_lines)?))
     }
 
     /// Whether it lies in the plane z = 0 ([`Particle::in_plane`]).
@@ -120,7 +120,7 @@ impl Particle {
     /// dimensions: S = 0 on all of it.
     pub(crate) fn boundary(dimensions: usize) -> &'static Self {
         static BOUNDARIES: LazyLock<[Particle; 3]> =
-            LazyLock::new(|| [0, 1, 2].map(|d| Particle::of(Shape::boundary(d))));
+            LazyLock::new(|| [0, 1, 2].map(|d| Particle::of(Solid::boundary(d))));
         &BOUNDARIES[dimensions]
     }
 
@@ -130,7 +130,7 @@ impl Particle {
         self.shape.len() == 0 && self.shape.sphere_weight == 0.0
     }
 
-    fn of(shape: Shape) -> Self {
+    fn of(shape: Solid) -> Self {
         // From a random number on: a pair state saved against its documentation then matches no particle of another
         // process.
         static LAST: LazyLock<AtomicU64> =
@@ -264,13 +264,13 @@ impl Particle {
     }
 }
 
-/// For the stages of the solver, which evaluate the shape. Nothing of [`Shape`] is public.
+/// For the stages of the solver, which evaluate the shape. Nothing of [`Solid`] is public.
 #[doc(hidden)]
 impl Deref for Particle {
-    type Target = Shape;
+    type Target = Solid;
 
     #[inline(always)]
-    fn deref(&self) -> &Shape {
+    fn deref(&self) -> &Solid {
         &self.shape
     }
 }

@@ -3,20 +3,10 @@
 //! Every excess n_i·y − d_i of a cluster is at most m·y + ρ|y| − d, with m the mean of its normals, ρ their largest
 //! distance from it and d its least offset. Where that bound is negative, no plane of the cluster is active.
 
+use super::numbers::{Limits, MARGIN};
 use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 use std::ops::Range;
-
-/// Most planes of a particle without bounds, and of an undivided cluster: evaluating them costs about as much as two
-/// bounds.
-const MOST: usize = 12;
-
-/// Relative margin of a bound, 45ε.
-///
-/// The bound is off by at most 10ε·(|m| + ρ)|y|: γ₃ for m·y, γ₃ for |y| and for ρ, ε for the differences n_i − m, and
-/// two additions. The rounding of d needs no more: where it decides the sign of the bound, |d| is about (|m| + ρ)|y|
-/// itself.
-const MARGIN: f64 = 1e-14;
 
 /// A run of consecutive planes with similar normals.
 #[derive(Clone, Debug)]
@@ -151,7 +141,7 @@ fn divide(planes: &[Plane], order: &mut [usize], start: usize, clusters: &mut Ve
         return;
     }
     clusters.push(Cluster::of(planes, order, start, at));
-    if count <= MOST {
+    if count <= Limits::CLUSTER {
         return;
     }
     let extent = |axis: usize| {

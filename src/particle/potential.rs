@@ -6,7 +6,7 @@
 use crate::linalg::double_double::DoubleDouble;
 use crate::linalg::number::{Number, larger, smaller};
 use crate::linalg::symmetric::Symmetric;
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::Vector3;
 
 /// The weights of S = plane·Σ⟨depth⟩² + sphere·|y|², 1/length², in doubles or in numbers of 32 digits.
@@ -45,7 +45,7 @@ impl<N: Number> Sums<N> {
 impl Weights {
     /// Of a shape, with its sphericity at least this (about a sphere of the bounding radius).
     #[inline]
-    pub fn of(shape: &Shape, least_sphericity: f64) -> Self {
+    pub fn of(shape: &Solid, least_sphericity: f64) -> Self {
         let radius = shape.bounds.radius;
         Self { plane: shape.plane_weight, sphere: larger(shape.sphere_weight, least_sphericity / (radius * radius)) }
     }
@@ -53,7 +53,7 @@ impl Weights {
 
 impl Weights<DoubleDouble> {
     /// Of a shape, from r, k and R as they were given; 0 where the shape has 0.
-    pub fn precise(shape: &Shape) -> Self {
+    pub fn precise(shape: &Solid) -> Self {
         let quotient = |of: DoubleDouble, by: f64| of / DoubleDouble::product(by, by);
         let (plane, sphere) = (DoubleDouble::sum(1.0, -shape.sphericity), DoubleDouble::from(shape.sphericity));
         let or_none = |weight: f64, precise: DoubleDouble| if weight > 0.0 { precise } else { DoubleDouble::from(0.0) };
@@ -169,14 +169,14 @@ pub struct OnLine {
 }
 
 /// S(y).
-pub fn value(shape: &Shape, y: &Vector3<f64>) -> f64 {
+pub fn value(shape: &Solid, y: &Vector3<f64>) -> f64 {
     let mut sums = Sums::default();
     shape.visit_near(y, 0.0, |_, n, excess| sums.add(&n, excess.max(0.0)));
     shape.weights().value(&sums, y)
 }
 
 /// S, ∇S, ∇²S at y, local frame.
-pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
+pub fn local(shape: &Solid, y: &Vector3<f64>) -> Quadratic {
     turned(shape, &shape.weights(), |n| n, y, 0.0, |_, excess| excess > 0.0)
 }
 
@@ -188,7 +188,7 @@ pub fn local(shape: &Shape, y: &Vector3<f64>) -> Quadratic {
 /// curvature along it then keeps its relative precision beside the large one across it.
 #[inline(always)]
 pub(crate) fn turned(
-    shape: &Shape,
+    shape: &Solid,
     weights: &Weights,
     turn: impl Fn(Vector3<f64>) -> Vector3<f64>,
     y: &Vector3<f64>,
@@ -225,7 +225,7 @@ pub(crate) fn turned(
 
 /// S, ∇S at y, local frame.
 #[inline(always)]
-pub(crate) fn tangent(shape: &Shape, y: &Vector3<f64>) -> Tangent {
+pub(crate) fn tangent(shape: &Solid, y: &Vector3<f64>) -> Tangent {
     let mut sums = Sums::default();
     shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {
@@ -242,7 +242,7 @@ pub(crate) fn tangent(shape: &Shape, y: &Vector3<f64>) -> Tangent {
 }
 
 /// S, slope and curvature at y along the local direction `e` (any length; it sets the unit of α).
-pub(crate) fn on_line(shape: &Shape, weights: &Weights, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
+pub(crate) fn on_line(shape: &Solid, weights: &Weights, y: &Vector3<f64>, e: &Vector3<f64>) -> OnLine {
     let (mut square, mut mixed, mut steep) = (0.0, 0.0, 0.0);
     shape.visit_near(y, 0.0, |_, n, excess| {
         if excess > 0.0 {

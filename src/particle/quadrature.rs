@@ -1,5 +1,7 @@
 //! The rule of mass properties on [0, 1], and what its error is at most.
 
+use super::numbers::{LEAST_SHARE, MOST_SHARE, OF_FOURTH_POWER};
+
 /// Number of points.
 pub(crate) const POINTS: usize = 7;
 
@@ -21,15 +23,6 @@ pub(crate) const OF_JUMP: f64 = 6.198e-4;
 
 /// Bound on the difference of the rules for the same functions, over that: half of ∫|K| of the difference.
 pub(crate) const DIFFERENCE_OF_JUMP: f64 = 2.556e-3 / OF_JUMP;
-
-/// Limits of the share.
-const LEAST_SHARE: f64 = 0.01;
-const MOST_SHARE: f64 = 4.0;
-
-/// Share over ρ⁻⁴, by which the terms that both rules miss are smaller than those that only one misses. For functions
-/// with a root or a pole at any place around the interval the error of the rule of 7 points is up to 10 ρ⁻⁴ of the
-/// difference.
-const OF_FOURTH_POWER: f64 = 16.0;
 
 /// Error of the rule of 7 points over its difference from that of 4, for a function that is analytic where D is not 0.
 /// D is quadratic; here it has these values at 0, ½ and 1.

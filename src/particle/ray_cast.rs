@@ -6,27 +6,24 @@
 //!
 //! Stop criteria compare steps with an estimate of the rounding of a point on the ray; they are no error bounds.
 
+use super::numbers::FACES_APART;
 use crate::linalg::root::{Bracket, MOST_STEPS};
 use crate::particle::potential::{self, OnLine};
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::Vector3;
-
-/// Surface points are no further off than this, in the largest distance that the bounding ball allows: that is rounded,
-/// too.
-const REACH: f64 = 1.0 + 1e-9;
 
 /// Distance τ ≥ 0 with S(from + τ·direction) = 1, for a local point and a local unit direction.
 ///
 /// `from` should be inside (S ≤ 1). From a point that rounding has put outside, the answer is a small negative number
 /// if the ray points away from the particle, and the distance to where it leaves it again if the ray enters. `None`
 /// when the ray misses the particle or something is not finite.
-pub fn distance(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
+pub fn distance(shape: &Solid, from: &Vector3<f64>, direction: &Vector3<f64>) -> Option<f64> {
     distance_near(shape, from, direction, 0.0)
 }
 
 /// The same from an initial guess; a good one saves half of the work.
 #[inline]
-pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, guess: f64) -> Option<f64> {
+pub(crate) fn distance_near(shape: &Solid, from: &Vector3<f64>, direction: &Vector3<f64>, guess: f64) -> Option<f64> {
     let start = from.norm();
     // No surface point is further off than this.
     let ray = Ray { shape, from, direction, start, farthest: start + shape.bounds.radius };
@@ -47,7 +44,7 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
         let step = newton - tau;
         let outside_and_close = line.value >= 0.0 && 0.5 * line.curvature * step * step <= rounding * line.slope;
         // A slope that has lost its digits may lead anywhere.
-        let in_reach = newton >= bracket.low - rounding && newton.abs() <= REACH * ray.farthest;
+        let in_reach = newton >= bracket.low - rounding && newton.abs() <= (1.0 + FACES_APART) * ray.farthest;
         if line.slope > 0.0 && in_reach && (step.abs() <= rounding || outside_and_close) {
             return Some(newton);
         }
@@ -102,7 +99,7 @@ pub(crate) fn distance_near(shape: &Shape, from: &Vector3<f64>, direction: &Vect
 /// further from any point inside. The exact start is inside and within `shift` of the rounded one; so the point that is
 /// found lies within 2·`shift`, or there is none.
 #[cold]
-pub(crate) fn distance_beside(shape: &Shape, from: &Vector3<f64>, direction: &Vector3<f64>, shift: f64) -> Option<f64> {
+pub(crate) fn distance_beside(shape: &Solid, from: &Vector3<f64>, direction: &Vector3<f64>, shift: f64) -> Option<f64> {
     let mut point = *from;
     for _ in 0..MOST_STEPS {
         let here = potential::tangent(shape, &point);
@@ -120,7 +117,7 @@ pub(crate) fn distance_beside(shape: &Shape, from: &Vector3<f64>, direction: &Ve
 
 /// A ray with what its search needs at every step.
 struct Ray<'a> {
-    shape: &'a Shape,
+    shape: &'a Solid,
     from: &'a Vector3<f64>,
     direction: &'a Vector3<f64>,
     /// Distance of its start from the origin.

@@ -5,33 +5,21 @@
 //! does not rise is halved. Along a flat face, where a Hessian has no curvature, a little of it keeps the point where
 //! it is.
 
+use super::numbers::{ADDED, ALONG, Limits, NEARLY_ALONG};
 use crate::particle::potential;
 use crate::particle::ray_cast;
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
-
-/// Curvatures that are added in all directions, as shares of the trace of the Hessian: the next where one leads
-/// nowhere.
-const ADDED: [f64; 3] = [1e-11, 1e-5, 1e-2];
-
-/// Most steps, and most halvings of one.
-const MOST_STEPS: usize = 100;
-const MOST_HALVINGS: usize = 20;
-
-/// How far the normal of the surface may be from u in the end, and where nothing rises any more: the height is missed
-/// by the curvature times half the square of that.
-const ALONG: f64 = 1e-8;
-const NEARLY: f64 = 1e-4;
 
 /// The point of the surface that lies farthest along a unit vector, sought from a point near it; `None` where rounding
 /// leaves no answer.
-pub(crate) fn farthest(shape: &Shape, u: &Vector3<f64>, near: &Vector3<f64>) -> Option<Vector3<f64>> {
+pub(crate) fn farthest(shape: &Solid, u: &Vector3<f64>, near: &Vector3<f64>) -> Option<Vector3<f64>> {
     let on_surface = |x: &Vector3<f64>| {
         let ray = x.try_normalize(0.0)?;
         Some(ray_cast::distance_near(shape, &Vector3::zeros(), &ray, x.norm())? * ray)
     };
     let mut x = on_surface(near)?;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..Limits::SUPPORT_STEPS {
         let here = potential::local(shape, &x);
         let off = (here.gradient.try_normalize(0.0)? - u).norm();
         if off <= ALONG {
@@ -42,12 +30,12 @@ pub(crate) fn farthest(shape: &Shape, u: &Vector3<f64>, near: &Vector3<f64>) -> 
             let curved = (hessian + Matrix3::from_diagonal_element(added * hessian.trace())).try_inverse()?;
             let (of_slope, of_height) = (curved * here.gradient, curved * u);
             let step = (here.gradient.dot(&of_slope) / u.dot(&of_height)).sqrt() * of_height - of_slope;
-            let shares = (0..MOST_HALVINGS).map(|halvings| 0.5f64.powi(halvings as i32));
+            let shares = (0..Limits::SUPPORT_HALVINGS).map(|halvings| 0.5f64.powi(halvings as i32));
             shares.filter_map(|share| on_surface(&(x + share * step))).find(|candidate| u.dot(candidate) > height)
         };
         match ADDED.into_iter().find_map(rises) {
             Some(better) => x = better,
-            None => return (off <= NEARLY).then_some(x),
+            None => return (off <= NEARLY_ALONG).then_some(x),
         }
     }
     None

@@ -1,26 +1,26 @@
 //! The part of a patch beyond the end of a strip, where a third plane is active.
 
-use super::chart::{Chart, Place, Vector, Wave, node, turn};
+use super::local_coordinates::{LocalCoordinates, Place, Vector, Wave, node, turn};
 use super::ray::Node;
 use super::rules::{gauss, tapering};
 use super::strip::Strip;
 
-/// Where a single point gives the load of a quarter of a paraboloid.
+/// Place of the single point that gives the load of a quarter of a paraboloid.
 const SINGLE: f64 = 0.407;
 
 /// Which body the third plane of a cap belongs to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Third {
-    /// That of the first two: three planes against one.
+    /// The body of the first two: three planes against one.
     Same,
-    /// The other: two against two.
+    /// The other body: two planes against two.
     Other,
 }
 
 /// The excesses of a corner's planes over s as functions of two angles, and the relation that gives s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Cap {
-    pub chart: Chart,
+    pub coordinates: LocalCoordinates,
     /// Excess over s: of the first two planes, and of the last.
     pub radii: [f64; 2],
     pub third: Third,
@@ -30,13 +30,13 @@ pub(super) struct Cap {
 
 impl Cap {
     /// Beyond the end of a strip.
-    pub fn new(chart: Chart, strip: &Strip, third: Third) -> Option<Self> {
-        let mut cap = Self { chart, radii: strip.radii, third, start: strip.start, width: 0.0 };
-        let wave = Wave::new(-chart.slopes[0] * cap.radii[0], -chart.slopes[1] * cap.radii[0]);
-        cap.width = wave.fallen_to(chart.c - cap.radii[1], strip.sign).0 - cap.start;
+    pub fn new(coordinates: LocalCoordinates, strip: &Strip, third: Third) -> Option<Self> {
+        let mut cap = Self { coordinates, radii: strip.radii, third, start: strip.start, width: 0.0 };
+        let wave = Wave::new(-coordinates.slopes[0] * cap.radii[0], -coordinates.slopes[1] * cap.radii[0]);
+        cap.width = wave.fallen_to(coordinates.c - cap.radii[1], strip.sign).0 - cap.start;
         // Within a quarter turn of the second angle it ends as well; else the patch goes on over another face.
         let (constant, wave) = cap.across(cap.start);
-        (cap.width.is_finite() && chart.c >= constant + wave.b).then_some(cap)
+        (cap.width.is_finite() && coordinates.c >= constant + wave.b).then_some(cap)
     }
 
     /// F as a constant and a wave in the second angle.
@@ -44,25 +44,25 @@ impl Cap {
     fn across(&self, theta: f64) -> (f64, Wave) {
         let [r, other] = self.radii;
         let (sin, cos, _) = turn(theta);
-        let first = -(self.chart.slopes[0] * cos + self.chart.slopes[1] * sin) * r;
+        let first = -(self.coordinates.slopes[0] * cos + self.coordinates.slopes[1] * sin) * r;
         match self.third {
-            Third::Same => (other, Wave::new(first, -self.chart.slopes[2] * r)),
-            Third::Other => (first, Wave::new(other, -self.chart.slopes[2] * other)),
+            Third::Same => (other, Wave::new(first, -self.coordinates.slopes[2] * r)),
+            Third::Other => (first, Wave::new(other, -self.coordinates.slopes[2] * other)),
         }
     }
 
     /// By how much F rises beyond the border with the strip, over its value there: a part of the patch is then missing.
     pub fn rise(&self) -> f64 {
         let Wave { a, b, size } = self.across(self.start).1;
-        if b > 0.0 { (size - a) / self.chart.c.abs() } else { 0.0 }
+        if b > 0.0 { (size - a) / self.coordinates.c.abs() } else { 0.0 }
     }
 
     fn height(&self, theta: f64) -> f64 {
         let (constant, wave) = self.across(theta);
-        wave.fallen_to(self.chart.c - constant, 1.0).0.max(0.0)
+        wave.fallen_to(self.coordinates.c - constant, 1.0).0.max(0.0)
     }
 
-    /// Where it begins.
+    /// The place at which the cap begins.
     pub fn corner(&self) -> Vector {
         self.at(self.start, 0.0).0
     }
@@ -96,7 +96,7 @@ impl Cap {
                 -other * sin2,
             ),
         };
-        let (x, area, s) = self.chart.place(a, [by_theta, by_psi], last, [0.0, last_by_psi]);
+        let (x, area, s) = self.coordinates.place(a, [by_theta, by_psi], last, [0.0, last_by_psi]);
         (x, rate * rate2 * area, s)
     }
 

@@ -4,6 +4,7 @@
 //! are quadratics. The patch is the curve D = 0 on the branch where D rises with k.
 
 use super::field::Owner;
+use super::numbers::{BEYOND_RIM, FARTHEST_RIM, SPREAD, TINY_STEP};
 use crate::linalg::root::MOST_STEPS;
 
 /// v + h·H + k·K + hh·H² + hk·H·K + kk·K², and its derivative p + ph·H + pk·K across the half-plane.
@@ -132,18 +133,6 @@ impl BoundingTriangle {
     }
 }
 
-/// A step back of this part of the size of the bodies is rounding.
-const TINY: f64 = 1e-13;
-
-/// Distance of two points of a patch over the radius about the start of the walk, at most.
-const FARTHEST: f64 = 2.0;
-
-/// Length of a bounding triangle over the estimated distance of the rim.
-const BEYOND_RIM: f64 = 1.25;
-
-/// Beyond this multiple of the bodies' size there is no rim.
-const FAR: f64 = 100.0;
-
 impl Cell {
     /// The height of the patch at h, and the slope of D along z there. `None` where the curve has turned back.
     #[inline(always)]
@@ -219,7 +208,7 @@ impl Cell {
     #[inline(always)]
     pub fn crossing(&self, plane: &RayPlane, radius: f64) -> Option<(f64, f64)> {
         let RayPlane { excess: e, along, up, active, .. } = *plane;
-        let tiny = TINY * radius;
+        let tiny = TINY_STEP * radius;
         if self.is_flat {
             let rate = along + up * self.flat_incline;
             let h = -e / rate;
@@ -230,7 +219,7 @@ impl Cell {
         let square = along * along + up * up;
         // Nothing is met farther off than the bodies' size. For a plane parallel to the half-plane to rounding, what
         // follows gives any number.
-        if !(e * e <= FARTHEST * FARTHEST * radius * radius * square) {
+        if !(e * e <= SPREAD * SPREAD * radius * radius * square) {
             return None;
         }
         // The line of the plane: its point nearest to the start, and t along (up, −along).
@@ -298,7 +287,9 @@ impl Cell {
             // s is linear.
             let scale = s.v.sqrt();
             let h = 2.0 * scale * (1.0 - scale) / (s.h + s.k * self.flat_incline);
-            return Ok(if h > 0.0 { h.min(2.0 * FAR * farthest) } else { 2.0 * FAR * farthest }.min(limit));
+            return Ok(
+                if h > 0.0 { h.min(2.0 * FARTHEST_RIM * farthest) } else { 2.0 * FARTHEST_RIM * farthest }.min(limit)
+            );
         }
         let (mut inside, mut outside) = (0.0, limit);
         let mut h = self.estimated_rim();
@@ -329,7 +320,7 @@ impl Cell {
             if !(next >= inside && next <= outside && next.is_finite()) {
                 next = if outside.is_finite() { 0.5 * (inside + outside) } else { 2.0 * h.max(farthest) };
             }
-            if inside > FAR * farthest {
+            if inside > FARTHEST_RIM * farthest {
                 // Not among the planes that are loaded.
                 return Ok(inside);
             }

@@ -4,7 +4,8 @@
 use super::curve::Trouble;
 use super::faces::Faces;
 use super::form::Form;
-use super::network::{Drawing, MOST_PLANES, Network};
+use super::network::{Drawing, Network};
+use super::numbers::{ErrorBudget, Fitted, HOPELESS, Limits};
 use super::pieces::Estimate;
 use super::ray::{Node, Walker};
 use super::smoothness::norm;
@@ -23,7 +24,7 @@ pub(super) struct CellScratch {
     deepest: f64,
     /// Whether the sides took too much of the tolerance.
     is_off: bool,
-    /// [`POINTS`] for each part, of which it may use less.
+    /// Capacity of [`POINTS`] for each part.
     nodes: Vec<Node>,
 }
 
@@ -36,28 +37,6 @@ struct Part {
     value: [f64; INTEGRALS],
     error: [f64; 2],
 }
-
-/// Factor c of the coarse and the fine rule: the relative error is c d² over the least S, d the relative difference to
-/// the rule of lower degree. The nearer s = √S comes to its kink at 0, the slower the rules converge.
-const OF_DIFFERENCE: [f64; 2] = [30.0, 10.0];
-
-/// Error of the load by the sides over its estimate, at most about.
-const OF_MISFIT: f64 = 3.0;
-
-/// Share of the allowed error for the sides; where they exceed it, they are drawn again, with `FINER` times the
-/// tolerance.
-const OF_SIDES: f64 = 0.95;
-const FINER: f64 = 0.25;
-
-/// Error of the coarse rule in one triangle, over the allowed one, above which it is tried in no other: about corners
-/// all triangles are alike.
-const HOPELESS: f64 = 60.0;
-
-/// Part of the tolerance that the rules may take.
-const SHARE: f64 = 0.9;
-
-/// Most parts.
-const MOST_PARTS: usize = 256;
 
 /// Fills `points`; `None` where the network does not close, or the error is above the tolerance.
 pub(super) fn cells(
@@ -72,7 +51,7 @@ pub(super) fn cells(
     let mut drawing = Drawing { axis, depth: 1.0 - deepest, tolerance };
     for _ in 0..2 {
         loop {
-            if walker.field.planes.len() > MOST_PLANES {
+            if walker.field.planes.len() > Limits::PLANES {
                 return None;
             }
             match scratch.network.draw(walker, &drawing) {
@@ -88,7 +67,7 @@ pub(super) fn cells(
         if estimate.is_some() || !scratch.is_off {
             return estimate;
         }
-        drawing.tolerance *= FINER;
+        drawing.tolerance *= ErrorBudget::PART;
     }
     None
 }
@@ -136,7 +115,7 @@ impl CellScratch {
         self.parts.clear();
         self.nodes.clear();
         self.is_off = false;
-        let most = SHARE * tolerance * self.network.rough_load;
+        let most = ErrorBudget::MAIN * tolerance * self.network.rough_load;
         let mut is_hopeless = false;
         for triangle in 0..self.triangles.len() {
             let place = self.parts.len();
@@ -152,16 +131,16 @@ impl CellScratch {
         loop {
             let mut sums = [0.0; INTEGRALS];
             let misfit = self.network.misfit;
-            let mut errors = [OF_MISFIT * misfit.load, misfit.area];
+            let mut errors = [Fitted::OPTIMISM * misfit.load, misfit.area];
             let mut worst = 0.0_f64;
             for part in &self.parts {
                 (0..INTEGRALS).for_each(|j| sums[j] += part.value[j]);
                 (0..2).for_each(|j| errors[j] += part.error[j]);
                 worst = worst.max(part.error[0]);
             }
-            let allowed = SHARE * tolerance * norm(&sums[..3]);
+            let allowed = ErrorBudget::MAIN * tolerance * norm(&sums[..3]);
             // No finer rule reduces the sides' error.
-            self.is_off = OF_MISFIT * misfit.load >= OF_SIDES * allowed;
+            self.is_off = Fitted::OPTIMISM * misfit.load >= ErrorBudget::SIDES * allowed;
             if self.is_off || !(allowed > 0.0) {
                 return None;
             }
@@ -172,7 +151,7 @@ impl CellScratch {
                 }
                 return Some(Estimate { force: errors[0], area: errors[1], rays: 0 });
             }
-            if self.parts.len() > MOST_PARTS {
+            if self.parts.len() > Limits::TRIANGLES {
                 return None;
             }
             let least = (0.5 * worst).min(allowed / self.parts.len() as f64);
@@ -204,7 +183,7 @@ impl CellScratch {
         let square = |node: &Node| node.x[0] * node.x[0] + node.x[1] * node.x[1];
         let reach = nodes.iter().map(square).fold(0.0, f64::max).sqrt();
         let (size, difference) = (norm(&value[..3]), norm(&off[..3]).max(norm(&off[3..6]) / reach));
-        let factor = OF_DIFFERENCE[usize::from(rule == Rule::Fine)];
+        let factor = Fitted::DIFFERENCE[usize::from(rule == Rule::Fine)];
         let of = |off: f64, size: f64| {
             if off > 0.0 { off * (factor * off / (self.deepest * size)).min(1.0) } else { 0.0 }
         };

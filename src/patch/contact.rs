@@ -2,23 +2,15 @@
 
 use super::field::{FramePlane, Owner, Placed};
 use super::integration::{Task, patch};
+use super::numbers::{COARSEST, DEEP, DEEP_SPHERICITY, FINEST, NEARBY};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::scratch::PatchScratch;
-use super::settings::{COARSEST, FINEST, PatchError, PatchSettings};
+use super::settings::{PatchError, PatchSettings};
 use crate::boundary::{FlatContact, Triangle};
 use crate::contact::contact::{Contact, Kind};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
-
-/// s below which a contact counts as deep.
-const DEEP: f64 = 1e-3;
-
-/// Sphericity of deep contacts.
-const DEEP_SPHERICITY: f64 = 1e-5;
-
-/// Overlaps within which planes are loaded first.
-const NEAR: f64 = 4.0;
 
 /// The patch of an overlapping contact of midway (of closest, its point and normal will do) of A with B.
 ///
@@ -64,7 +56,7 @@ pub fn patch_of_contact(
         length: a.depth_length() + b.depth_length(),
         branches: [contact.branch_a, contact.branch_b],
         position: *pose_a.position(),
-        near: NEAR * contact.overlap,
+        near: NEARBY * contact.overlap,
         settings: *settings,
         flags,
     };
@@ -148,7 +140,7 @@ fn on_boundary(
         length: a.depth_length(),
         branches: [*branch; 2],
         position: *pose.position(),
-        near: NEAR * contact.overlap,
+        near: NEARBY * contact.overlap,
         settings: *settings,
         flags,
     };

@@ -3,13 +3,8 @@
 use super::cell::Cell;
 use super::field::{Owner, dot};
 use super::half_plane::{HalfPlane, Tilt};
-use super::ray::{CellEnd, GENTLE, RIM, Walker};
-
-/// Most cells on the way to the rim.
-const MOST_CELLS: usize = 64;
-
-/// Way, over the bodies' size, within which a plane that switches twice does not count.
-const COINCIDENT: f64 = 1e-9;
+use super::numbers::{COINCIDENT, GENTLE, Limits};
+use super::ray::{CellEnd, RIM, Walker};
 
 /// In the place of the number of a plane: the axes of the walk are turned there.
 pub(super) const ONWARDS: u32 = u32::MAX - 1;
@@ -56,7 +51,7 @@ impl Walker<'_, '_, '_> {
         let (mut rho, mut zeta) = (0.0, 0.0);
         let (mut first, mut is_first) = (None, true);
         let (mut last, mut since) = (usize::MAX, 0.0);
-        for _ in 0..MOST_CELLS {
+        for _ in 0..Limits::CURVE_CELLS {
             let cell = self.cell(&half_plane, rho, zeta);
             if !(cell.s.v < 1.0) {
                 return Err(Trouble::Lost);

@@ -1,7 +1,8 @@
 //! A patch that is one zone: that of a corner on a face, or of crossed edges.
 
 use super::cap::Third;
-use super::chart::{Chart, Place, Vector, Wave, node};
+use super::local_coordinates::{LocalCoordinates, Place, Vector, Wave, node};
+use super::numbers::{AROUND_DISC, Fitted, Limits};
 use super::ray::Node;
 use super::rules::gauss;
 use std::f64::consts::TAU;
@@ -10,17 +11,17 @@ use std::sync::LazyLock;
 /// The whole patch is one zone: three planes of a body against one, or two against two.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Disc {
-    chart: Chart,
+    coordinates: LocalCoordinates,
     radii: [f64; 2],
-    shape: Shape,
+    shape: ExcessSurface,
 }
 
 /// The surface on which the excesses over s lie.
 #[derive(Clone, Copy, Debug)]
-enum Shape {
-    /// Of three planes of a body: about an axis, with two directions across it, up to 1 − cos ω = `whole`.
+enum ExcessSurface {
+    /// With three planes of one body: about an axis, with two directions across it, up to 1 − cos ω = `whole`.
     Sphere { axes: [Vector; 3], whole: f64 },
-    /// Of two planes of each body: two waves, and the sines of half the angles at which they end.
+    /// With two planes of each body: two waves, and the sines of half the angles at which they end.
     Torus { waves: [Wave; 2], ends: [f64; 2] },
 }
 
@@ -35,41 +36,36 @@ const FIRST: [(f64, f64); 3] = [
 /// Its error for u⁴, whose exact integral is ⅒.
 const OF_FOURTH: f64 = 5.94e-4;
 
-/// Estimated over likely error.
-const SAFE: f64 = 3.0;
-
-/// Points around for it: on a sphere moments up to the second are exact, on a torus they converge.
-const FIRST_AROUND: [usize; 2] = [5, 7];
-
 impl Disc {
     /// `None` where the rim is not reached within the zone.
-    pub fn new(chart: Chart, radii: [f64; 2], third: Third) -> Option<Self> {
+    pub fn new(coordinates: LocalCoordinates, radii: [f64; 2], third: Third) -> Option<Self> {
         let [r, other] = radii;
         let shape = match third {
             Third::Same => {
-                let towards = Vector::from(chart.slopes) * -r;
+                let towards = Vector::from(coordinates.slopes) * -r;
                 let size = towards.norm();
                 let axis = towards / size;
                 let p = axis.cross(&Vector::ith(axis.iamin(), 1.0)).normalize();
-                let whole = (size + other - chart.c) / size;
-                (whole > 0.0 && whole < 1.0).then_some(Shape::Sphere { axes: [axis, p, axis.cross(&p)], whole })?
+                let whole = (size + other - coordinates.c) / size;
+                (whole > 0.0 && whole < 1.0)
+                    .then_some(ExcessSurface::Sphere { axes: [axis, p, axis.cross(&p)], whole })?
             }
             Third::Other => {
-                let [alpha, beta, gamma] = chart.slopes;
+                let [alpha, beta, gamma] = coordinates.slopes;
                 let waves = [Wave::new(-alpha * r, -beta * r), Wave::new(other, -gamma * other)];
-                let depth = waves[0].size + waves[1].size - chart.c;
-                // Of half angles, which are those of an ellipse.
+                let depth = waves[0].size + waves[1].size - coordinates.c;
+                // Sines of half angles, since those are the half axes of an ellipse.
                 let ends = waves.map(|wave| (0.5 * depth / wave.size).sqrt());
-                (depth > 0.0 && ends.iter().all(|end| *end < 0.7)).then_some(Shape::Torus { waves, ends })?
+                (depth > 0.0 && ends.iter().all(|end| *end < 0.7)).then_some(ExcessSurface::Torus { waves, ends })?
             }
         };
-        Some(Self { chart, radii, shape })
+        Some(Self { coordinates, radii, shape })
     }
 
     /// A rule of few points, with the errors of ∫ p n and of the area by how fast the powers of the square of the
     /// distance fall.
     pub fn first(&self, mut visit: impl FnMut(Node)) -> Option<[f64; 2]> {
-        let points = FIRST_AROUND[usize::from(matches!(self.shape, Shape::Torus { .. }))];
+        let points = AROUND_DISC[usize::from(matches!(self.shape, ExcessSurface::Torus { .. }))];
         let mut rings = [[0.0; 4]; 3];
         for ((rho, weight), ring) in FIRST.iter().zip(&mut rings) {
             let weight = 2.0 * weight * TAU / points as f64;
@@ -98,7 +94,7 @@ impl Disc {
         let cubic = [0, 1, 2].map(third);
         // The divided difference, less the share of the cubic term.
         let square = [0, 1, 2].map(|i| second(i) - (u + v + w) * cubic[i]);
-        let scale = SAFE * OF_FOURTH * 2.0 * TAU / points as f64;
+        let scale = Fitted::OPTIMISM * OF_FOURTH * 2.0 * TAU / points as f64;
         let of_load = size(cubic);
         Some([if of_load > 0.0 { scale * of_load * of_load / size(square) } else { 0.0 }, scale * second(3).abs()])
     }
@@ -129,7 +125,7 @@ impl Disc {
     fn at(&self, u: f64, &(sin_chi, cos_chi): &(f64, f64)) -> Place {
         let [r, other] = self.radii;
         match &self.shape {
-            Shape::Sphere { axes: [axis, p, q], whole } => {
+            ExcessSurface::Sphere { axes: [axis, p, q], whole } => {
                 // 1 − cos ω, which is even over the sphere.
                 let versed = whole * u;
                 let (cos, sin) = (1.0 - versed, (versed * (2.0 - versed)).sqrt());
@@ -138,10 +134,11 @@ impl Disc {
                 let by_omega = cos * around - sin * axis;
                 let by_chi = cos_chi * q - sin_chi * p;
                 let scaled = |v: Vector| [v.x * r, v.y * r, v.z * r];
-                let (x, area, s) = self.chart.place(scaled(m), [scaled(by_omega), scaled(by_chi)], other, [0.0; 2]);
+                let (x, area, s) =
+                    self.coordinates.place(scaled(m), [scaled(by_omega), scaled(by_chi)], other, [0.0; 2]);
                 (x, *whole * area, s)
             }
-            Shape::Torus { waves, ends } => {
+            ExcessSurface::Torus { waves, ends } => {
                 let half = [ends[0] * u.sqrt() * cos_chi, ends[1] * u.sqrt() * sin_chi];
                 let root = half.map(|h| (1.0 - h * h).sqrt());
                 let from_peak = |wave: &Wave, i: usize| {
@@ -149,7 +146,7 @@ impl Disc {
                     ((wave.b * cos + wave.a * sin) / wave.size, (wave.a * cos - wave.b * sin) / wave.size)
                 };
                 let ((sin, cos), (sin2, cos2)) = (from_peak(&waves[0], 0), from_peak(&waves[1], 1));
-                let (x, area, s) = self.chart.place(
+                let (x, area, s) = self.coordinates.place(
                     [r * cos, r * sin, other * sin2],
                     [[-r * sin, r * cos, 0.0], [0.0, 0.0, other * cos2]],
                     other * cos2,
@@ -162,12 +159,9 @@ impl Disc {
     }
 }
 
-/// Most points around a disc.
-const MOST_AROUND: usize = 24;
-
 /// Sine and cosine of so many equal steps around.
-fn circle(count: usize) -> &'static [(f64, f64); MOST_AROUND] {
-    type Table = [[(f64, f64); MOST_AROUND]; MOST_AROUND];
+fn circle(count: usize) -> &'static [(f64, f64); Limits::AROUND_DISC] {
+    type Table = [[(f64, f64); Limits::AROUND_DISC]; Limits::AROUND_DISC];
     static TABLE: LazyLock<Table> = LazyLock::new(|| {
         std::array::from_fn(|n| std::array::from_fn(|i| (TAU * (i as f64 + 0.5) / (n + 1) as f64).sin_cos()))
     });

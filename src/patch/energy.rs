@@ -6,14 +6,9 @@
 //! energies of the pieces of a boundary add up, in whatever pieces it is given.
 
 use super::field::{Field, Owner, Placed, dot};
+use super::numbers::{ENERGY_POINTS, Limits};
 use super::ray::Node;
 use super::rules::gauss;
-
-/// Gauss points in a cell.
-const POINTS: usize = 5;
-
-/// Most cells on a way to the surface.
-const MOST_CELLS: usize = 200;
 
 /// −F·n of A, and of B where there is one, at a node, for the normal whose z is 1. As an error, the distance of a point
 /// beyond that within which all planes are loaded.
@@ -40,8 +35,8 @@ fn outwards(field: &Field, body: &Placed, owner: Owner, x: &[f64; 3], normal: &[
     let power = if field.is_in_plane() { 1 } else { 2 };
     let (w, m) = (body.plane_weight, body.sphere_weight);
     let (mut from, mut sum) = (0.0, 0.0);
-    let rule = &gauss(POINTS).nodes[..POINTS];
-    for _ in 0..MOST_CELLS {
+    let rule = &gauss(ENERGY_POINTS).nodes[..ENERGY_POINTS];
+    for _ in 0..Limits::ENERGY_CELLS {
         // The quadratic from here on, and the next place where a plane goes on or off.
         let (mut value, mut slope, mut square) = (m * (length + from).powi(2), 2.0 * m * (length + from), m);
         let mut next = f64::INFINITY;

@@ -5,10 +5,8 @@
 //! side is part of: coinciding curves are one side, and coinciding vertices one vertex. What lies between them enters
 //! to second order.
 
-use super::network::{Network, SAME, Side};
-
-/// Area over that of the patch from which on a face counts.
-const LEAST_AREA: f64 = 1e-12;
+use super::network::{Network, Side};
+use super::numbers::{ROUNDED, SAME_VERTEX};
 
 /// A corner of a face, and the middle of the side to the next one.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +42,7 @@ impl Faces {
     ) -> Option<()> {
         let size =
             network.vertices.iter().flat_map(|vertex| [vertex.x[0].abs(), vertex.x[1].abs()]).fold(0.0, f64::max);
-        self.unite(network, is_split, SAME * size)?;
+        self.unite(network, is_split, SAME_VERTEX * size)?;
         let vertices = self.link(network);
         self.is_done.clear();
         self.is_done.resize(self.next.len(), false);
@@ -64,9 +62,9 @@ impl Faces {
             }
             faces += 1;
             let area = area(&self.outline);
-            if area < -LEAST_AREA * size * size {
+            if area < -ROUNDED * size * size {
                 outer += 1;
-            } else if area > LEAST_AREA * size * size {
+            } else if area > ROUNDED * size * size {
                 give(&self.outline)?;
             }
         }

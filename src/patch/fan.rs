@@ -1,50 +1,12 @@
 //! The integral over a patch: a fan of rays, cut into sectors on which the sequence of cells does not change, refined
 //! where the estimated error is largest.
 
+use super::numbers::{
+    EVENTS_MEET, ErrorBudget, Fitted, JUMP, Limits, STEEPEST_LOAD, STRAIGHT_BORDER, TIP, WIDEST_SECTOR,
+};
 use super::ray::{EVENTS, Event, Line, RIM, Ray, SUMS, Walker};
 use super::rules::GAUSS_KRONROD;
 use super::smoothness::{error_of_rule, norm};
-
-/// Most rays, points on them, and planes looked at in their cells: some tens of milliseconds.
-const MOST_RAYS: usize = 1500;
-const MOST_NODES: usize = 500_000;
-const MOST_WORK: usize = 2_000_000;
-
-/// Most halvings in the search for the direction in which the sequence of cells changes.
-const DEEPEST: u32 = 14;
-
-/// Relative distance of two events on a ray at which it counts as the border of two sequences, over the root of the
-/// tolerance: the error is of second order in it.
-const COINCIDENT: f64 = 0.1;
-
-/// Share of the tolerance for the pieces next to a border that are not cut off there.
-const NEGLIGIBLE: f64 = 0.05;
-
-/// Part of what lies beyond an event that another sequence of cells changes at most, about.
-const OF_EFFECT: f64 = 0.15;
-
-/// Part of the tolerance that is left for the sectors.
-const ANGULAR: f64 = 0.9;
-
-/// Part of the tolerance that one rule on a ray may take, over the load of the ray.
-const RADIAL: f64 = 0.1;
-
-/// Relative distance from a straight line up to which a border counts as straight: the loads of flat cells are then
-/// polynomials.
-const STRAIGHT: f64 = 1e-7;
-
-/// A sector has a tip where its middle ray is `TIP` times as long as the way to the middle of the chord between its
-/// ends; three rays are then wrong by about `OF_TIP` of its load at most.
-const TIP: f64 = 2.0;
-const OF_TIP: f64 = 0.1;
-
-/// The load jumps between two neighbouring rays where its relative change exceeds `JUMP` and also `STEEPEST` times
-/// their angle.
-const JUMP: f64 = 0.1;
-const STEEPEST: f64 = 30.0;
-
-/// Largest angle of a sector that is made of several.
-const WIDEST: f64 = 1.7;
 
 /// A sector between two rays of the same sequence of cells.
 #[derive(Clone, Copy, Debug)]
@@ -71,7 +33,7 @@ pub(super) struct Integral {
     pub radial: f64,
 }
 
-/// What a fan is made with.
+/// A fan of rays in the making.
 pub(super) struct Fan<'w, 'f, 'a, 's> {
     pub walker: Walker<'f, 'a, 's>,
     pub rays: &'w mut Vec<Ray>,
@@ -125,10 +87,10 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         self.walker.nodes.clear();
         (self.extent, self.is_capped, self.has_jump) = (0.0, false, false);
         let [e, f] = axis;
-        let budget = RADIAL * self.tolerance * 0.25 * rough;
+        let budget = ErrorBudget::MINOR * self.tolerance * 0.25 * rough;
         self.walker.budget = if budget > 0.0 { budget } else { f64::INFINITY };
         let first = [[e, f], [-f, e], [-e, -f], [f, -e]].map(|direction| self.cast(direction));
-        self.negligible = NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;
+        self.negligible = ErrorBudget::NEGLIGIBLE * self.tolerance * rough * std::f64::consts::FRAC_PI_2;
         for i in 0..4 {
             self.resolve(first[i], first[(i + 1) % 4]);
         }
@@ -144,7 +106,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             next = 0;
             let integral = self.total();
             let (worst, error) = self.worst(&integral);
-            if error <= ANGULAR * self.tolerance || self.is_capped {
+            if error <= ErrorBudget::MAIN * self.tolerance || self.is_capped {
                 return integral;
             }
             if self.sectors[worst].count < 7 {
@@ -204,9 +166,9 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let ray = self.walker.walk(&self.line(direction));
         self.extent = self.extent.max(ray.length());
         self.rays.push(ray);
-        let used_up = self.walker.nodes.len() >= MOST_NODES || self.walker.work >= MOST_WORK;
-        if self.rays.len() >= MOST_RAYS || used_up {
-            // What is left is done as cheaply as it can be.
+        let used_up = self.walker.nodes.len() >= Limits::NODES || self.walker.work >= Limits::WORK;
+        if self.rays.len() >= Limits::RAYS || used_up {
+            // The remaining rays are done as cheaply as possible.
             (self.is_capped, self.walker.budget) = (true, f64::INFINITY);
         }
         self.rays.len() - 1
@@ -231,7 +193,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         {
             let whole = angle(&self.rays[before.left].direction, &self.rays[right].direction);
             let alike = [left, right].iter().all(|ray| self.rays[before.left].is_like(&self.rays[*ray]));
-            if alike && whole > 0.0 && whole < WIDEST {
+            if alike && whole > 0.0 && whole < WIDEST_SECTOR {
                 let end = self.sectors.len() - 1;
                 self.sectors[end].right = right;
                 return;
@@ -257,14 +219,16 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             };
             let width = angle(&a.direction, &b.direction);
             let effect = width * a.tail(m).max(b.tail(m));
-            let is_last = OF_EFFECT * effect <= self.negligible || depth >= DEEPEST || self.is_capped;
+            let is_last = Fitted::OTHER_SEQUENCE * effect <= self.negligible
+                || depth >= Limits::BORDER_HALVINGS
+                || self.is_capped;
             self.has_jump |= is_last && jumps(a, b, width);
             if is_last {
                 self.emit(left, right, None);
                 continue;
             }
             let share = self.change(left, right, m, &at_a, &at_b);
-            if let Some(t) = share.filter(|t| OF_EFFECT * effect * t.min(1.0 - t) <= self.negligible) {
+            if let Some(t) = share.filter(|t| Fitted::OTHER_SEQUENCE * effect * t.min(1.0 - t) <= self.negligible) {
                 self.emit(left, right, Some(if t > 0.5 { left } else { right }));
                 continue;
             }
@@ -277,8 +241,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         }
     }
 
-    /// Where between two rays, as a part of the chord, their first differing events swap their order; `None` if
-    /// unknown.
+    /// The place between two rays, as a part of the chord, at which their first differing events swap their order;
+    /// `None` if it is unknown.
     ///
     /// Inverse distances to straight borders are linear on the chord.
     fn change(&mut self, left: usize, right: usize, m: usize, at_a: &Event, at_b: &Event) -> Option<f64> {
@@ -300,7 +264,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
             id if id == j => i,
             _ => return (middle, middle),
         };
-        let near = COINCIDENT * self.tolerance.sqrt() * first.rho;
+        let near = EVENTS_MEET * self.tolerance.sqrt() * first.rho;
         let mut swapped = ray;
         match ray.event(m + 1) {
             Some(&second) if second.id == other && second.rho - first.rho <= near => {
@@ -332,7 +296,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let Sector { left, right, .. } = self.sectors[index];
         let (a, b) = (&self.rays[left], &self.rays[right]);
         let load = angle(&a.direction, &b.direction).abs() * a.sums[2].max(b.sums[2]);
-        if OF_EFFECT * load <= self.negligible { 1 } else { 3 }
+        if Fitted::OTHER_SEQUENCE * load <= self.negligible { 1 } else { 3 }
     }
 
     /// Integrates over a sector with 1, 3 or 7 rays; resolves it where one of them has another sequence of cells.
@@ -351,7 +315,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let (start, end) = (scaled(&self.rays[left], from), scaled(&self.rays[right], to));
         let cross = start[0] * end[1] - start[1] * end[0];
         if !(cross > 0.0) {
-            // Of no area.
+            // A sector without area.
             self.sectors[index].count = 1;
             return true;
         }
@@ -363,7 +327,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let part = |t: f64| if theta > 1e-6 { (t * theta).sin() / theta.sin() } else { t };
         let constant = if theta > 1e-6 { cross * theta / theta.sin() } else { cross };
         let mut sums = [[0.0; SUMS]; 2];
-        let is_straight = (bulge - 1.0).abs() < STRAIGHT;
+        let is_straight = (bulge - 1.0).abs() < STRAIGHT_BORDER;
         let (mut loads, mut energies) = ([[0.0; 3]; 7], [[0.0; 3]; 7]);
         let mut rays = known.rays;
         for (i, (t, few, many)) in GAUSS_KRONROD[..count].iter().enumerate() {
@@ -415,7 +379,7 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
         let estimate = |off: f64, size: f64| match count {
             _ if like.is_none() || odd.is_some() => off,
             1 => 0.0,
-            3 if TIP * bulge < 1.0 => OF_TIP * size,
+            3 if TIP * bulge < 1.0 => Fitted::TIP_ERROR * size,
             3 => off * (2.0 * off / size).powi(2).min(1.0),
             _ => off * (10.0 * off / size).min(1.0),
         };
@@ -462,7 +426,8 @@ impl<'w, 'f, 'a, 's> Fan<'w, 'f, 'a, 's> {
 /// Whether the loads of two tilted rays differ by far more than the angle between them explains.
 fn jumps(a: &Ray, b: &Ray, width: f64) -> bool {
     let change = norm(&[0, 1, 2].map(|i| a.sums[i] - b.sums[i]));
-    (a.is_tilted || b.is_tilted) && change > JUMP.max(STEEPEST * width) * norm(&a.sums[..3]).max(norm(&b.sums[..3]))
+    (a.is_tilted || b.is_tilted)
+        && change > JUMP.max(STEEPEST_LOAD * width) * norm(&a.sums[..3]).max(norm(&b.sums[..3]))
 }
 
 fn unit([e, f]: [f64; 2]) -> [f64; 2] {

@@ -1,6 +1,7 @@
 //! The potentials in the frame of a patch: origin at the contact point, axes u, v across the normal, z along it, from A
 //! to B.
 
+use super::numbers::ROUNDING;
 use crate::linalg::root::MOST_STEPS;
 use crate::particle::particle::Particle;
 use crate::particle::potential::Weights;
@@ -23,10 +24,6 @@ pub(super) struct FramePlane {
     pub excess: f64,
     pub owner: Owner,
 }
-
-/// Rounding of s at a point, in units of the size of the bodies over r: of distances from planes and of the point
-/// itself.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// A particle as seen from the frame.
 #[derive(Clone, Copy)]
@@ -146,7 +143,7 @@ impl<'a, 's> Field<'a, 's> {
         self.a.particle.plane_count() + self.b.map_or(0, |b| b.particle.plane_count())
     }
 
-    /// What is loaded, for [`Self::restore`].
+    /// The planes that are loaded, for [`Self::restore`].
     pub fn state(&self) -> (usize, f64) {
         (self.planes.len(), self.loaded)
     }

@@ -56,12 +56,12 @@ impl HalfPlane {
         along.iter().chain(&up).all(|x| x.is_finite()).then_some(Self { origin, along, across: [a, b, c], up })
     }
 
-    /// The same the other way.
+    /// This half plane with both axes reversed.
     pub fn backwards(&self) -> Self {
         Self { along: self.along.map(|x| -x), across: self.across.map(|x| -x), ..*self }
     }
 
-    /// With its axes turned in it.
+    /// This half plane with its axes turned in it.
     pub fn turned(&self, [c, s]: [f64; 2]) -> Self {
         let mix = |a: f64, x: &[f64; 3], b: f64, y: &[f64; 3]| std::array::from_fn(|i| a * x[i] + b * y[i]);
         Self { along: mix(c, &self.along, s, &self.up), up: mix(c, &self.up, -s, &self.along), ..*self }

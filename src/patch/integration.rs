@@ -5,6 +5,7 @@ use super::cells::{CellScratch, cells};
 use super::centre::{flattest_axis, middle, on_patch};
 use super::fan::{Fan, Integral};
 use super::field::{Field, FramePlane, Placed};
+use super::numbers::{FINEST_OF_PARTS, Limits, OFF_CENTRE, ZONES_FIRST};
 use super::patch::{Patch, PatchFlags, PatchPoint};
 use super::pieces::{Estimate, PieceScratch, pieces};
 use super::ray::{Line, Node, Walker};
@@ -15,21 +16,7 @@ use super::smoothness::norm;
 use super::stiffness::{stiffness, turned};
 use nalgebra::{Matrix3, Matrix6, Vector3};
 
-/// Rays start again where the centre of pressure is farther from their centre than this share of the patch's reach.
-const OFF_CENTRE: f64 = 0.25;
-
-/// Most such starts.
-const MOST_STARTS: usize = 3;
-
-/// Least tolerance of zones and cells: zones have no rules of higher degree, and the parabolas that bound cells are not
-/// refined any further.
-const FINEST_OF_PARTS: f64 = 1e-8;
-
-/// Zones are tried before cells up to this number of planes of both bodies: for boxes they cost less, but for bodies
-/// with many planes they mostly fail.
-const FEW: usize = 16;
-
-/// What a patch is computed from.
+/// The data of a patch.
 pub(super) struct Task<'a> {
     pub a: Placed<'a>,
     pub b: Option<Placed<'a>>,
@@ -65,7 +52,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     let mut parts = Parts { task, field: &mut field, start, deepest, tolerance, planes: ray_planes, nodes, points };
     let outcome = if parts.field.is_in_plane() {
         Some(parts.both_sides())
-    } else if parts.field.plane_count() <= FEW {
+    } else if parts.field.plane_count() <= ZONES_FIRST {
         parts.zones(pieces).or_else(|| parts.cells(cells))
     } else {
         parts.cells(cells).or_else(|| parts.zones(pieces))
@@ -103,7 +90,7 @@ pub(super) fn patch(task: &Task, scratch: &mut PatchScratch, mut visit: impl FnM
     Patch { flags, error, area_error, rays: outcome.rays, ..summary.patch }
 }
 
-/// What is known of a patch besides its points.
+/// Errors, energy and flags of a patch: all but its points.
 #[derive(Default)]
 struct Outcome {
     error: f64,
@@ -197,7 +184,7 @@ fn only_in_plane(stiffness: &mut Matrix6<f64>) {
 }
 
 impl Outcome {
-    /// Of points whose errors are estimated.
+    /// The outcome for points whose errors are estimated.
     fn of(estimate: &Estimate, points: &[Node]) -> Self {
         let force = points.iter().map(|node| node.weight * node.pressure * vector(node)).sum::<Vector3<f64>>().norm();
         Self {
@@ -233,7 +220,7 @@ fn spread(task: &Task, fan: &mut Fan, start: [f64; 3], points: &mut Vec<Node>) -
         // The axis of the wrench in the plane of the frame.
         let [_, _, load, turn_u, turn_v, ..] = integral.sums;
         let off = [-turn_v / load, turn_u / load];
-        if starts < MOST_STARTS && !fan.is_capped && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
+        if starts < Limits::STARTS && !fan.is_capped && off[0].hypot(off[1]) > OFF_CENTRE * fan.extent {
             let [u, v, z] = fan.centre;
             if let Some(better) = on_patch(fan.walker.field, u + off[0], v + off[1], z) {
                 fan.centre = better;
@@ -354,7 +341,7 @@ impl Summary {
         Self { patch, sums }
     }
 
-    /// What needs the axis of the wrench.
+    /// Adds the quantities that need the axis of the wrench.
     fn complete(&mut self, task: &Task, points: &[Node]) {
         let frame = &task.frame;
         let (force, torque) =

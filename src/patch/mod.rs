@@ -4,6 +4,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what the integration is tuned by: limits, the budget of errors, fitted factors |
 //! | `rules` | Gauss rules |
 //! | `settings` | what is asked for |
 //! | `patch` | the answer |
@@ -21,7 +22,7 @@
 //! | `triangle_rule` | quadrature over a curved triangle |
 //! | `triangulation` | cells cut into such triangles |
 //! | `cells` | the patch in cells |
-//! | `chart` | coordinates in which the patch is explicit |
+//! | `local_coordinates` | coordinates in which the patch is explicit |
 //! | `polygon` | its flat part |
 //! | `strip` | the part along an edge |
 //! | `cap` | the part beyond its end |
@@ -42,7 +43,6 @@ mod cap;
 mod cell;
 mod cells;
 mod centre;
-mod chart;
 mod contact;
 mod curve;
 mod disc;
@@ -53,7 +53,9 @@ mod field;
 mod form;
 mod half_plane;
 mod integration;
+mod local_coordinates;
 mod network;
+mod numbers;
 #[allow(clippy::module_inception)]
 mod patch;
 mod patch_state;

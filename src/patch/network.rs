@@ -3,38 +3,9 @@
 use super::curve::{ONWARDS, Stretch, Trouble};
 use super::field::{Field, dot};
 use super::half_plane::HalfPlane;
+use super::numbers::{BULGE, ErrorBudget, Fitted, HALF_TURN, Limits, ON_CURVE, SAME_VERTEX};
 use super::ray::{RIM, Walker};
 use super::rim::{CurvePart, Known, Misfit, RimPoint, parabola, unmet_plane};
-
-/// Most planes that may be loaded, vertices, and rounds in which planes are found.
-pub(super) const MOST_PLANES: usize = 128;
-const MOST_VERTICES: usize = 400;
-const MOST_ROUNDS: usize = 12;
-
-/// tan ½θ of the largest turn θ = 1.1 of half an arc.
-const HALF_TURN: f64 = 0.6;
-
-/// Distance from a side over its length within which a place counts as on it.
-const ON_CURVE: f64 = 1e-2;
-
-/// Distance over that from the origin within which two walks meet the same vertex.
-pub(super) const SAME: f64 = 1e-6;
-
-/// What one arc may be off, over the tolerance: of the area, and of the load.
-const OF_AREA: f64 = 1.0;
-const OF_LOAD: f64 = 0.1;
-
-/// What is left of the misfit in area once the middle of an arc is corrected by it, at most about.
-const CORRECTED: f64 = 0.2;
-
-/// A plane that changes the depth by less than this share of the tolerance gets no curve.
-const LEFT_OUT: f64 = 0.1;
-
-/// How much farther from the origin an arc may be than its ends and its middle.
-const BEYOND: f64 = 1.1;
-
-/// Most halvings of an arc or a curve.
-const MOST_HALVINGS: usize = 6;
 
 /// Where two curves meet, or one meets the rim.
 #[derive(Clone, Copy, Debug)]
@@ -63,7 +34,8 @@ pub(super) struct Network {
     pub sides: Vec<Side>,
     /// Planes whose curves are to be followed, each from a place on it.
     queue: Vec<(u32, [f64; 3])>,
-    /// The same of planes one curve of which is drawn: one that crosses the patch twice has two.
+    /// Planes one curve of which is drawn, each from a place on another one: a plane that crosses the patch twice has
+    /// two.
     again: Vec<(u32, [f64; 3])>,
     /// Directions in which planes are sought, and the one that counts even if its curve is drawn.
     towards: Vec<([f64; 2], u32)>,
@@ -73,17 +45,17 @@ pub(super) struct Network {
     /// The edges of the triangle, beyond which nothing counts.
     pub edges: u128,
     ring: Vec<(f64, u32)>,
-    /// What an arc may be off, and what all are.
+    /// Misfit that an arc may have, and that of all arcs.
     allowed: Misfit,
     pub misfit: Misfit,
-    /// What the curves may be off, of ∫ p.
+    /// Misfit of ∫ p along the curves.
     pub curved_load: f64,
     /// ∫ p over the patch, roughly.
     pub rough_load: f64,
     stretches: [Vec<Stretch>; 2],
 }
 
-/// What the network is drawn with.
+/// The settings by which a network is drawn.
 #[derive(Clone, Copy)]
 pub(super) struct Drawing {
     /// The axis of the frame's plane along which the first rays go, and across it.
@@ -111,12 +83,12 @@ impl Network {
             self.vertices.push(Vertex { x: end, planes: [RIM; 2], uses: 1 });
             lengths[i % 2] += (end[0] * end[0] + end[1] * end[1]).sqrt();
         }
-        // Of an ellipse with these axes and a paraboloid of s over it.
+        // Area of an ellipse with these axes, and load of a paraboloid of s over it.
         let area = 0.25 * std::f64::consts::PI * lengths[0] * lengths[1];
         self.rough_load = 0.25 * drawing.depth * area;
-        let [of_area, of_load] = [OF_AREA * drawing.tolerance, OF_LOAD * drawing.tolerance];
+        let [of_area, of_load] = [drawing.tolerance, ErrorBudget::MINOR * drawing.tolerance];
         self.allowed = Misfit { area: of_area * area, load: of_load * self.rough_load, ..Misfit::default() };
-        for _ in 0..MOST_ROUNDS {
+        for _ in 0..Limits::ITERATIONS {
             loop {
                 if let Some((id, through)) = self.queue.pop() {
                     if !self.is_drawn(id) {
@@ -162,7 +134,7 @@ impl Network {
 
     /// Adds the curve of a plane.
     fn follow(&mut self, walker: &mut Walker, id: u32, through: [f64; 3]) -> Result<(), Trouble> {
-        if id as usize >= MOST_PLANES || self.vertices.len() > MOST_VERTICES {
+        if id as usize >= Limits::PLANES || self.vertices.len() > Limits::VERTICES {
             return Err(Trouble::Lost);
         }
         let is_drawn = self.is_drawn(id);
@@ -201,7 +173,7 @@ impl Network {
         halvings: usize,
     ) -> Result<(), Trouble> {
         let straying = if is_exact { 0.0 } else { part.straying(field) };
-        let is_off = straying > self.allowed.load && halvings < MOST_HALVINGS;
+        let is_off = straying > self.allowed.load && halvings < Limits::HALVINGS;
         if let Some([first, second]) = is_off.then(|| part.halves(field)).flatten() {
             self.vertices.push(Vertex { x: part.middle, planes: [part.id; 2], uses: 2 });
             let between = self.vertices.len() as u32 - 1;
@@ -230,7 +202,7 @@ impl Network {
         Ok(self.vertices.len() as u32 - 1)
     }
 
-    /// Where one curve met another that did not meet it, the other gets a vertex; returns whether all such places are
+    /// Adds a vertex to every curve that another one met without being met by it; returns whether all such vertices are
     /// on drawn curves.
     fn meet(&mut self) -> bool {
         for i in 0..self.vertices.len() {
@@ -327,16 +299,16 @@ impl Network {
             return Ok(true);
         }
         let middle = from.middle(to, field).ok_or(Trouble::Lost)?;
-        let away = BEYOND * dot(&middle.x, &middle.x).sqrt();
+        let away = BULGE * dot(&middle.x, &middle.x).sqrt();
         if away > field.loaded() {
             return Err(Trouble::Far(away));
         }
         let turns = from.half_turn_to(&middle).abs().max(middle.half_turn_to(to).abs()) > HALF_TURN;
         let own = ends.map(|end| self.vertices[end as usize].planes[0]);
-        let least_beyond = LEFT_OUT * drawing.tolerance;
+        let least_beyond = ErrorBudget::MINOR * drawing.tolerance;
         let least = least_beyond * drawing.depth;
         let known = Known { drawn: self.drawn, at_origin: self.at_origin, least, least_beyond };
-        let is_arc = !turns || halvings == MOST_HALVINGS;
+        let is_arc = !turns || halvings == Limits::HALVINGS;
         if let Some((id, [u, v, _])) = unmet_plane(field, [from, &middle, to], (own, is_arc), &known) {
             self.towards.push(([u, v], id as u32));
             if self.is_drawn(id as u32) {
@@ -351,7 +323,7 @@ impl Network {
             Misfit::default()
         };
         let is_off = turns || misfit.area > self.allowed.area || misfit.load > self.allowed.load;
-        if is_off && halvings < MOST_HALVINGS {
+        if is_off && halvings < Limits::HALVINGS {
             self.vertices.push(Vertex { x: middle.x, planes: [RIM; 2], uses: 1 });
             let between = self.vertices.len() as u32 - 1;
             let first = self.arc(field, drawing, ([ends[0], between], [from, &middle]), halvings + 1)?;
@@ -359,12 +331,12 @@ impl Network {
             return Ok(first && second);
         }
         if turns {
-            // What its tip holds is known no better.
+            // Area and load of the tip are not known any better.
             let tip = from.tip(to);
             self.misfit.area += tip;
             self.misfit.load += drawing.depth * tip;
         }
-        self.misfit.area += CORRECTED * misfit.area;
+        self.misfit.area += Fitted::CORRECTED * misfit.area;
         self.misfit.load += misfit.load;
         let [u, v] = [0, 1].map(|i| middle.x[i] + misfit.correction[i]);
         self.sides.push(Side { ends, middle: [u, v], plane: RIM });
@@ -375,7 +347,7 @@ impl Network {
 /// Whether two walks found the same place.
 fn are_same(a: &[f64; 3], b: &[f64; 3]) -> bool {
     let size = b.iter().map(|c| c.abs()).fold(0.0, f64::max);
-    (0..3).all(|c| (a[c] - b[c]).abs() <= SAME * size)
+    (0..3).all(|c| (a[c] - b[c]).abs() <= SAME_VERTEX * size)
 }
 
 /// Rises with the angle of a point about the origin, from −2 to 2.

@@ -5,6 +5,7 @@
 //! that nothing else enters.
 
 use super::contact::{checked, patch_of_contact, patch_on_plane, patch_on_triangle};
+use super::numbers::{ErrorBudget, FARTHEST_CARRIED, Fitted};
 use super::patch::{Patch, PatchFlags};
 use super::scratch::PatchScratch;
 use super::settings::{PatchError, PatchSettings};
@@ -15,19 +16,6 @@ use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::settings::Formulation;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
-
-/// Largest motion over the largest depth up to which a patch is carried on, over the root of the tolerance.
-const FARTHEST: f64 = 0.3;
-
-/// Relative error of force and torque over the square of the motion over the depth: that of a corner, whose force grows
-/// with the third power of the depth.
-const OF_SQUARE: f64 = 3.0;
-
-/// Relative error of the area over the motion over the depth: that of a corner.
-const OF_AREA: f64 = 2.0;
-
-/// Part of the tolerance that a change of the shape of a boundary may take, over the depth.
-const OF_SHAPE: f64 = 0.1;
 
 /// The last patch of one ordered pair (A, B), or of a particle and a boundary, with its stiffness.
 ///
@@ -68,7 +56,7 @@ pub struct PatchState {
     uses: u64,
 }
 
-/// Where A is, seen from B.
+/// The place of A, seen from B.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C)]
 struct Place {
@@ -95,7 +83,7 @@ struct Now<'a> {
     s: Option<f64>,
 }
 
-/// What A has done since the patch was integrated, in the frame of B.
+/// The motion of A since the patch was integrated, in the frame of B.
 struct Motion {
     /// Shift and turn about the contact point of that time.
     screw: Vector6<f64>,
@@ -240,7 +228,7 @@ impl PatchState {
         let change = patch.stiffness * motion.screw;
         let force = patch.force + change.fixed_rows::<3>(0);
         let about_point = patch.torque + change.fixed_rows::<3>(3);
-        // Where the axis of the wrench is nearest to the contact point, and from there to the height of the patch.
+        // The point of the axis of the wrench that is nearest to the contact point, moved to the height of the patch.
         let (square, size) = (force.norm_squared(), force.norm());
         let foot = point + force.cross(&about_point) / square;
         let centre = foot + force * (force.dot(&(patch.pressure_centre - foot)) / square);
@@ -259,14 +247,16 @@ impl PatchState {
             centroid: world(&(patch.pressure_centre + patch.centroid - centre)),
             second_moment: now.axes * patch.second_moment * now.axes.transpose(),
             mean_depth: patch.mean_depth * (size / patch.force.norm()),
-            // Of closest, s is not that of the point.
+            // With the formulation closest, s is not that of the point.
             largest_depth: now.s.map_or(patch.largest_depth, |s| (patch.length * (1.0 - s)).max(0.0)),
             energy: patch.energy + work.dot(&motion.screw),
             stiffness: Matrix6::repeat(f64::NAN),
             // The stiffness is summed at points that are meant for the force: it is known to about the root of the
             // tolerance.
-            error: patch.error + (OF_SQUARE * motion.size + self.tolerance.sqrt()) * motion.size + motion.change,
-            area_error: patch.area_error + OF_AREA * motion.size,
+            error: patch.error
+                + (Fitted::CARRIED_FORCE * motion.size + self.tolerance.sqrt()) * motion.size
+                + motion.change,
+            area_error: patch.area_error + Fitted::CARRIED_AREA * motion.size,
             flags,
             points: 0,
             rays: 0,
@@ -278,7 +268,7 @@ impl PatchState {
 impl Motion {
     /// At a depth of 0 no motion is small: the quotient is infinite or NaN.
     fn is_small(&self, tolerance: f64) -> bool {
-        self.size <= FARTHEST * tolerance.sqrt() && self.change <= OF_SHAPE * tolerance
+        self.size <= FARTHEST_CARRIED * tolerance.sqrt() && self.change <= ErrorBudget::MINOR * tolerance
     }
 }
 

@@ -1,28 +1,11 @@
 //! One zone with its rule of quadrature: a strip, a cap or a disc.
 
 use super::cap::Cap;
-use super::chart::Vector;
 use super::disc::Disc;
+use super::local_coordinates::Vector;
+use super::numbers::{CAP_RULES, DISC_RULES, FINE, Fitted, STRIP_RULES};
 use super::ray::Node;
-use super::rules::FINE;
 use super::strip::Strip;
-
-/// Points of the rules of a strip, across and along, from coarse to fine.
-const OF_STRIPS: [[usize; 2]; 5] = [[3, 2], [3, 3], [4, 4], [5, 8], [8, 14]];
-
-/// Of a cap, in both angles.
-const OF_CAPS: [usize; 5] = [1, 2, 3, 5, 8];
-
-/// Of a disc, outwards and around, after its first rule, which coarse tolerances begin with.
-const OF_DISCS: [[usize; 2]; 3] = [[4, 10], [6, 14], [10, 24]];
-
-/// Estimated relative error of a cap: with one point `SINGLE`; with two in each angle c + f d², `DOUBLE` = [c, f], d
-/// the relative difference of both rules. d may be small by chance, hence c.
-const SINGLE: f64 = 0.3;
-const DOUBLE: [f64; 2] = [0.003, 0.3];
-
-/// Estimated error over the load by two points along a strip that tapers: one point along it would tell nothing.
-const TAPERED: f64 = 1e-3;
 
 /// A part of the patch.
 #[derive(Clone, Copy, Debug)]
@@ -30,11 +13,11 @@ pub(super) struct Piece {
     pub kind: Kind,
     /// The rule in use, of those of its kind.
     rule: usize,
-    /// What is neglected: of the force.
+    /// Force that is neglected.
     pub neglected: f64,
     /// Estimated errors of force and area.
     pub errors: [f64; 2],
-    /// Where its points are.
+    /// Range of its points.
     nodes: (usize, usize),
 }
 
@@ -52,8 +35,9 @@ impl Piece {
 
     /// The next finer rule; of a cap, whose first error is assumed, the first that may reach `allowed`.
     pub fn refine(&mut self, allowed: f64) {
-        let skips =
-            matches!(self.kind, Kind::Cap(_)) && self.rule == 0 && self.errors[0] * DOUBLE[0] > allowed * SINGLE;
+        let skips = matches!(self.kind, Kind::Cap(_))
+            && self.rule == 0
+            && self.errors[0] * Fitted::CAP_BY_TWO[0] > allowed * Fitted::CAP_BY_ONE;
         self.rule += 1 + usize::from(skips);
     }
 
@@ -80,14 +64,14 @@ impl Piece {
         let only = |node: Node| add(&mut coarse, &node);
         match &self.kind {
             Kind::Strip(strip) => {
-                let [across, along] = *OF_STRIPS.get(self.rule)?;
+                let [across, along] = *STRIP_RULES.get(self.rule)?;
                 strip.integrate(across, along, into)?;
                 // One point along a strip that tapers tells nothing.
                 tapers = along == 2 && strip.tapers().is_some();
                 strip.integrate(across - 1, if tapers { along } else { along - 1 }, only)?;
             }
             Kind::Cap(cap) => {
-                let points = *OF_CAPS.get(self.rule)?;
+                let points = *CAP_RULES.get(self.rule)?;
                 cap.integrate(points, into)?;
                 if points > 1 {
                     cap.integrate(points - 1, only)?;
@@ -102,7 +86,7 @@ impl Piece {
                     self.nodes = (first, nodes.len());
                     return Some(());
                 };
-                let [outwards, around] = *OF_DISCS.get(finer)?;
+                let [outwards, around] = *DISC_RULES.get(finer)?;
                 disc.integrate(outwards, around, into)?;
                 disc.integrate(outwards - 1, around - 2, only)?;
             }
@@ -111,11 +95,14 @@ impl Piece {
         let (off, size) = (Vector::from(off).norm(), Vector::new(fine[0], fine[1], fine[2]).norm());
         let least = if tolerance < FINE { 1.0 } else { (0.02 / deepest).min(1.0) };
         let of = |off: f64, size: f64| match (&self.kind, self.rule) {
-            (Kind::Cap(_), 0) => SINGLE * size,
-            (Kind::Cap(_), 1) => DOUBLE[0] * size + if off > 0.0 { DOUBLE[1] * off * off / size } else { 0.0 },
+            (Kind::Cap(_), 0) => Fitted::CAP_BY_ONE * size,
+            (Kind::Cap(_), 1) => {
+                Fitted::CAP_BY_TWO[0] * size + if off > 0.0 { Fitted::CAP_BY_TWO[1] * off * off / size } else { 0.0 }
+            }
             // The nearer s = √S comes to the kink at its 0, the slower the rules converge.
             _ if off > 0.0 => {
-                off * (3.0 * off / (deepest * size)).clamp(least, 1.0) + if tapers { TAPERED * size } else { 0.0 }
+                off * (3.0 * off / (deepest * size)).clamp(least, 1.0)
+                    + if tapers { Fitted::TAPERED * size } else { 0.0 }
             }
             _ => 0.0,
         };

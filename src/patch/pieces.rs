@@ -1,8 +1,9 @@
 //! The patch of bodies without a sphere in pieces that need no search: a polygon with strips and caps around it, the
 //! strips and caps of an edge, or a disc.
 
-use super::chart::{Vector, normal};
 use super::field::{Field, Owner};
+use super::local_coordinates::{Vector, normal};
+use super::numbers::{ErrorBudget, LOADED_AT_ONCE};
 use super::piece::Piece;
 use super::polygon::{Corner, integrate};
 use super::ray::Node;
@@ -14,12 +15,6 @@ pub(super) struct PieceScratch {
     corners: [Vec<Corner>; 2],
     pieces: Vec<Piece>,
 }
-
-/// Part of the tolerance that the pieces may take.
-const SHARE: f64 = 0.9;
-
-/// Bodies with no more planes than this together are loaded at once.
-const FEW: usize = 48;
 
 /// Estimated errors of force and area.
 #[derive(Clone, Copy, Debug, Default)]
@@ -45,7 +40,7 @@ pub(super) fn pieces(
     if field.a.sphere_weight > 0.0 || field.b.is_some_and(|b| b.sphere_weight > 0.0) {
         return None;
     }
-    if field.plane_count() <= FEW && field.loaded() < field.radius() {
+    if field.plane_count() <= LOADED_AT_ONCE && field.loaded() < field.radius() {
         field.load(field.radius());
     }
     let at = Vector::from(*start);
@@ -83,11 +78,11 @@ fn refine(pieces: &mut [Piece], tolerance: f64, deepest: f64, nodes: &mut Vec<No
         if !(force > 0.0) {
             return None;
         }
-        let limit = SHARE * tolerance * force;
+        let limit = ErrorBudget::MAIN * tolerance * force;
         let neglected: f64 = pieces.iter().map(|piece| piece.neglected).sum();
         let [force, area] = [0, 1].map(|i| pieces.iter().map(|piece| piece.errors[i]).sum::<f64>());
         if force + neglected <= limit {
-            // What a finer rule has replaced has no weight.
+            // Points that a finer rule has replaced have no weight.
             nodes.retain(|node| node.weight > 0.0);
             return Some(Estimate { force: force + neglected, area, rays: 0 });
         }

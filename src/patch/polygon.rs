@@ -1,17 +1,11 @@
 //! The flat part of a patch: where one plane of each body is active, a polygon with a linear pressure.
 
-use super::chart::{Flat, Vector, normal, radius};
 use super::field::{Field, Owner};
+use super::local_coordinates::{Flat, Vector, normal, radius};
+use super::numbers::{ROUNDED, WIDE_SIDE_POINTS};
 use super::ray::{Node, RIM};
 use super::rules::gauss;
 use crate::linalg::polygon::clip;
-
-/// Sides shorter than this part of the polygon are rounding.
-const SHORTEST: f64 = 1e-12;
-
-/// Points on either side of the foot of a side that is seen under a wide angle: exact for squares of the place along
-/// it.
-const HALF: usize = 3;
 
 /// A corner, and the number of the plane that ends the polygon from there on ([`RIM`] where s = 1).
 #[derive(Clone, Copy, Debug)]
@@ -33,7 +27,7 @@ fn linear([c, u, v]: &[f64; 3], at: &[f64; 2]) -> f64 {
 }
 
 impl Level {
-    /// Where plane `i` of A and the flat body are level with each other.
+    /// The line on which plane `i` of A and the flat body have the same excess.
     pub fn new(field: &Field, i: usize, other: &Flat) -> Option<Self> {
         let plane = &field.planes[i];
         let of_a = 1.0 / radius(field, Owner::A);
@@ -97,7 +91,7 @@ pub(super) fn cut(field: &Field, level: &Level, active: [usize; 2], half: f64, c
     next.clear();
     next.extend((0..count).filter_map(|k| {
         let (a, b) = (polygon[k].at, polygon[(k + 1) % count].at);
-        ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()) > SHORTEST * size).then_some(polygon[k])
+        ((b[0] - a[0]).abs().max((b[1] - a[1]).abs()) > ROUNDED * size).then_some(polygon[k])
     }));
     std::mem::swap(polygon, next);
     polygon.len() >= 3
@@ -161,7 +155,7 @@ pub(super) fn integrate(level: &Level, polygon: &[Corner], nodes: &mut Vec<Node>
             let side = [b[0] - a[0], b[1] - a[1]];
             let along = (centre[0] - a[0]) * side[0] + (centre[1] - a[1]) * side[1];
             let foot = along / (side[0] * side[0] + side[1] * side[1]);
-            for (sigma, weight) in &gauss(HALF).nodes[..HALF] {
+            for (sigma, weight) in &gauss(WIDE_SIDE_POINTS).nodes[..WIDE_SIDE_POINTS] {
                 let (square, weight) = (sigma * sigma, 2.0 * sigma * weight);
                 add(foot * (1.0 - square), foot * weight);
                 add(foot + (1.0 - foot) * square, (1.0 - foot) * weight);

@@ -3,26 +3,13 @@
 use super::cell::{Cell, Quadratic, RayPlane};
 use super::field::{Field, Owner, dot};
 use super::half_plane::{HalfPlane, Tilt};
+use super::numbers::{GENTLE, Limits, NEAR_TURN, STEEP};
 
 /// Events of a ray that are kept; of a longer one the last place holds the end.
 pub(super) const EVENTS: usize = 12;
 
 /// The end of a ray where s = 1, in place of the number of a plane.
 pub(super) const RIM: u32 = u32::MAX;
-
-/// Most cells on a ray.
-const MOST_CELLS: usize = 400;
-
-/// Incline beyond which a walk goes on with its axes turned, as it does where the patch turns back: over upright axes
-/// rules converge slowly there.
-const STEEP: f64 = 3.0;
-
-/// Incline at the start of a cell from which on they are turned at once; else after half of the bend.
-pub(super) const GENTLE: f64 = 0.1;
-
-/// Part of the way to where the patch turns back from which on a rim counts as beyond: rounding places it on either
-/// side.
-const NEAR_TURN: f64 = 0.999;
 
 /// Half of a straight line over the plane of the frame, from a point of the patch.
 #[derive(Clone, Copy, Debug)]
@@ -34,7 +21,7 @@ pub(super) struct Line {
     pub is_polar: bool,
 }
 
-/// Where the way through a cell ends.
+/// The end of the way through a cell.
 pub(super) struct CellEnd {
     pub h: f64,
     pub k: f64,
@@ -48,8 +35,8 @@ pub(super) struct CellEnd {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
     pub x: [f64; 3],
-    /// Of the area in the plane of the frame, per angle; below 0 where the patch has turned back under itself, so that
-    /// sums of weight · normal are right there, too.
+    /// Weight of its area in the plane of the frame, per angle; below 0 where the patch has turned back under itself,
+    /// so that sums of weight · normal are right there, too.
     pub weight: f64,
     /// 1 − s.
     pub pressure: f64,
@@ -66,7 +53,7 @@ impl Node {
     }
 }
 
-/// Where a plane goes on or off, or the ray ends.
+/// A place at which a plane goes on or off, or the ray ends.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Event {
     /// Number of the plane, or [`RIM`].
@@ -81,7 +68,7 @@ pub(super) struct Event {
 /// Number of integrals of a ray.
 pub(super) const SUMS: usize = 8;
 
-/// What a ray found.
+/// A ray that was walked, and its integrals.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Ray {
     pub direction: [f64; 2],
@@ -177,7 +164,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         }
     }
 
-    /// The same, unless it leaves the distance within which all planes are loaded: that distance.
+    /// Walks once. An error is the distance up to which planes must be loaded, where the ray leaves those that are.
     fn attempt(&mut self, line: &Line) -> Result<Ray, f64> {
         let start = self.nodes.len() as u32;
         let nowhere = Event { id: RIM, rho: 0.0, zeta: 0.0, before: 0.0 };
@@ -197,7 +184,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         let mut tilt = Tilt::UPRIGHT;
         self.set_out(&half_plane);
         let (mut rho, mut zeta, mut way) = (0.0, 0.0, 0.0);
-        for _ in 0..MOST_CELLS {
+        for _ in 0..Limits::RAY_CELLS {
             let cell = self.cell(&half_plane, rho, zeta);
             if !(cell.s.v < 1.0) {
                 ray.push(Event { id: RIM, rho: way, zeta, before: ray.sums[2] });
@@ -269,7 +256,7 @@ impl<'f, 'a, 's> Walker<'f, 'a, 's> {
         }
     }
 
-    /// Where the way through a cell ends: at the nearest plane or edge, or on the rim.
+    /// The end of the way through a cell: at the nearest plane or edge, or on the rim.
     pub fn end_of(&self, cell: &Cell) -> CellEnd {
         // Beyond its turn the patch is no graph, and what is met there lies on another branch.
         let turn = cell.turn();

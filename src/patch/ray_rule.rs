@@ -3,14 +3,9 @@
 use super::cell::Cell;
 use super::energy;
 use super::half_plane::Tilt;
+use super::numbers::{ROUNDED, SHORTEST_CELL};
 use super::ray::{Line, Node, Ray, SUMS, Walker};
 use super::rules::gauss;
-
-/// Shortest part of a cell that gets a rule of its own.
-const SHORTEST: f64 = 1.0 / 256.0;
-
-/// Least part of a normal along z that is told from 0.
-const UPRIGHT: f64 = 1e-12;
 
 impl Walker<'_, '_, '_> {
     /// Adds the cell to the integrals, in pieces where one rule does not do.
@@ -32,7 +27,7 @@ impl Walker<'_, '_, '_> {
                 ray.is_folded = true;
                 return Ok(());
             };
-            if error > self.budget && to - from > SHORTEST * h {
+            if error > self.budget && to - from > SHORTEST_CELL * h {
                 self.nodes.truncate(known);
                 step = 0.5 * (to - from);
                 continue;
@@ -72,7 +67,7 @@ impl Walker<'_, '_, '_> {
             let run = 1.0 / rise;
             let (of_along, of_across) = (cell.d.by_h(along, up) * run, cell.d.across(along, up) * run);
             let n_up = tilt.sin * of_along + tilt.cos;
-            [tilt.cos * of_along - tilt.sin, of_across, if n_up.abs() < UPRIGHT { UPRIGHT } else { n_up }]
+            [tilt.cos * of_along - tilt.sin, of_across, if n_up.abs() < ROUNDED { ROUNDED } else { n_up }]
         };
         let turned = |n_along: f64, n_across: f64| [n_along * e - n_across * f, n_along * f + n_across * e];
         let mut sums = [0.0; SUMS];

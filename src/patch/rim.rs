@@ -1,23 +1,8 @@
 //! Points and arcs of the rim of the patch, on which both potentials are 1, and of the curves inside.
 
 use super::field::{Field, Look, Owner, dot};
+use super::numbers::{COINCIDENT, Limits, MOST_HALF_TURN, ON_RIM, POINT_BESIDE_CURVE};
 use crate::linalg::root::MOST_STEPS;
-
-/// Most steps of Newton's method without a bracket.
-const MOST_NEWTON: usize = 12;
-
-/// Relative to the length of an arc, how near its middle is to the rim: the error of the patch is of second order in
-/// it.
-const NEAR: f64 = 1e-5;
-
-/// tan ½θ that a turn counts for at most where the middle of an arc is guessed.
-const MOST_HALF_TURN: f64 = 1.5;
-
-/// The sine of an angle from which on two tangents cross.
-const PARALLEL: f64 = 1e-9;
-
-/// Weight of a point of quadrature beside a curve over the square of its length.
-const OF_POINT: f64 = 1.0 / 32.0;
 
 /// A point of the rim.
 #[derive(Clone, Copy, Debug)]
@@ -29,12 +14,12 @@ pub(super) struct RimPoint {
 }
 
 impl RimPoint {
-    /// What the field has at a point of the rim; `None` where the patch is no graph.
+    /// The direction and the slopes of the field at a point of the rim; `None` where the patch is no graph.
     pub fn new(field: &Field, x: [f64; 3]) -> Option<Self> {
         Self::of(field, x, &field.look(&x))
     }
 
-    /// The same from what was seen there, or so near that its direction is known.
+    /// As `new`, from a look at the point, or at one so near that the direction of the rim is known.
     fn of(field: &Field, x: [f64; 3], look: &Look) -> Option<Self> {
         let (_, rises) = look.difference(field.b.is_some());
         // The slope of S points outwards.
@@ -54,13 +39,13 @@ impl RimPoint {
         (a * d - b * c) / (1.0 + (a * c + b * d))
     }
 
-    /// Where the tangents here and at another point cross, from the middle of the chord.
+    /// Crossing of the tangents here and at another point, from the middle of the chord.
     fn crossing(&self, other: &Self) -> Option<[f64; 2]> {
         let ([a, b], [c, d]) = (self.tangent, other.tangent);
         let [u, v] = [other.x[0] - self.x[0], other.x[1] - self.x[1]];
         let turn = a * d - b * c;
         let along = (u * d - v * c) / turn;
-        (turn > PARALLEL).then_some([along * a - 0.5 * u, along * b - 0.5 * v])
+        (turn > COINCIDENT).then_some([along * a - 0.5 * u, along * b - 0.5 * v])
     }
 
     /// The area between the chord to another point and the tangents, within which the rim lies; infinite after half a
@@ -76,7 +61,7 @@ impl RimPoint {
         let (mut out, length) = across(&self.x, &other.x);
         let half = self.half_turn_to(other);
         let chord: [f64; 3] = std::array::from_fn(|i| 0.5 * (self.x[i] + other.x[i]));
-        // Of a circle: half the chord times tan ¼θ.
+        // The sagitta of a circle: half the chord times tan ¼θ.
         let part = 1.0 / (1.0 + (1.0 + half * half).sqrt());
         let mut sagitta = 0.5 * length * half.clamp(-MOST_HALF_TURN, MOST_HALF_TURN) * part;
         let towards = self.crossing(other).or_else(|| {
@@ -93,7 +78,7 @@ impl RimPoint {
         let x = on_line(field, at(sagitta), (out, length), |look, _| (look.s[0] - 1.0, look.gradients[0]));
         // Inwards is the other side of the rim, which in a sliver is near.
         let is_outwards =
-            |(x, _): &([f64; 3], Look)| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -NEAR * length;
+            |(x, _): &([f64; 3], Look)| (x[0] - chord[0]) * out[0] + (x[1] - chord[1]) * out[1] >= -ON_RIM * length;
         let (x, look) = x.filter(is_outwards).or_else(|| outwards(field, at, (out, length), sagitta))?;
         Self::of(field, x, &look)
     }
@@ -126,7 +111,7 @@ fn outwards(
         if !(next > inside && next < outside) {
             next = if outside.is_finite() { 0.5 * (inside + outside) } else { 2.0 * t + length };
         }
-        if (next - t).abs() <= NEAR * length {
+        if (next - t).abs() <= ON_RIM * length {
             return Some(([u, v, z], look));
         }
         t = next;
@@ -142,7 +127,7 @@ fn on_line(
     (out, length): ([f64; 2], f64),
     function: impl Fn(&Look, &[f64; 3]) -> (f64, [f64; 3]),
 ) -> Option<([f64; 3], Look)> {
-    for _ in 0..MOST_NEWTON {
+    for _ in 0..Limits::ITERATIONS {
         let look = field.look(&x);
         let (d, rises) = look.difference(field.b.is_some());
         let (off, slopes) = function(&look, &x);
@@ -155,7 +140,7 @@ fn on_line(
         if !(step.abs() < length) {
             return None;
         }
-        if step.abs().max(up.abs()) <= NEAR * length {
+        if step.abs().max(up.abs()) <= ON_RIM * length {
             return Some((x, look));
         }
     }
@@ -186,7 +171,12 @@ impl CurvePart {
             x[2] -= d / rises[2];
             plane.excess + dot(&plane.normal, &x)
         });
-        OF_POINT * 0.5 * field.plane_weight(plane.owner) * length * length * excess[0].powi(2).max(excess[1].powi(2))
+        POINT_BESIDE_CURVE
+            * 0.5
+            * field.plane_weight(plane.owner)
+            * length
+            * length
+            * excess[0].powi(2).max(excess[1].powi(2))
     }
 
     /// Its halves, each with its middle on the curve.
@@ -236,7 +226,7 @@ impl Misfit {
     }
 }
 
-/// What is known of the planes where the rim is drawn, a bit each.
+/// The planes whose state is known where the rim is drawn, one bit each.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Known {
     /// Planes whose curves are drawn.
@@ -245,7 +235,7 @@ pub(super) struct Known {
     pub at_origin: u128,
     /// Change of S by a plane up to which its curve is left out.
     pub least: f64,
-    /// The same of how far the edge of a triangle is crossed, over the distance from the origin.
+    /// Distance beyond the edge of a triangle, over that from the origin, up to which the edge is left out.
     pub least_beyond: f64,
 }
 
@@ -304,7 +294,7 @@ fn across(from: &[f64; 3], to: &[f64; 3]) -> ([f64; 2], f64) {
     ([v / length, -u / length], length)
 }
 
-/// Of a vector of the frame's plane. A patch is as large as its bodies: squares neither overflow nor vanish.
+/// Length of a vector of the frame's plane. A patch is as large as its bodies: squares neither overflow nor vanish.
 fn length_of([u, v]: [f64; 2]) -> f64 {
     (u * u + v * v).sqrt()
 }

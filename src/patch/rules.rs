@@ -1,5 +1,6 @@
 //! Gauss rules: their points and weights, and how well a polynomial through the points meets the ends.
 
+use super::numbers::FINE;
 use std::sync::LazyLock;
 
 /// Most points of a rule.
@@ -80,10 +81,6 @@ fn computed(points: usize) -> Gauss {
     }
     Gauss { nodes, at_end }
 }
-
-/// Tolerance below which rules of few points are not trusted: the error of a rule then counts as much as its difference
-/// to a coarser one, and edges are not made of zones.
-pub(super) const FINE: f64 = 1e-5;
 
 /// Points in a cell of a ray that starts on the rim of a flat part, or of one of the plane.
 pub(super) fn order_of(tolerance: f64) -> usize {

@@ -1,11 +1,8 @@
 //! What is asked of a patch, and what is refused.
 
+use super::numbers::COARSEST;
 use crate::particle::in_plane::InPlaneError;
 use thiserror::Error;
-
-/// The finest and the coarsest tolerance.
-pub(super) const FINEST: f64 = 1e-12;
-pub(super) const COARSEST: f64 = 0.1;
 
 /// How a patch is computed.
 #[derive(Clone, Copy, Debug, PartialEq)]

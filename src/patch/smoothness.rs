@@ -1,13 +1,8 @@
 //! How far off a rule over a sector is, from the loads of its rays and of those at its ends.
 
+use super::numbers::Fitted;
 use super::rules::GAUSS_KRONROD;
 use std::sync::LazyLock;
-
-/// Relative error of 3 rays in a sector over the third power of the relative variation of their loads.
-const OF_VARIATION: f64 = 0.05;
-
-/// Error of 3 and 7 rays over the distance by which their polynomial misses the loads at the ends.
-const OF_ENDS: [f64; 2] = [0.02, 0.004];
 
 /// Error of a rule from how far the polynomial through its loads misses those at the ends, and from how smooth they
 /// are.
@@ -27,9 +22,9 @@ pub(super) fn error_of_rule(loads: &[[f64; 3]], ends: &[[f64; 3]; 2]) -> f64 {
     });
     let missed = missed.fold(0.0, f64::max);
     if few {
-        (OF_ENDS[0] * missed).max(error_of_three(loads))
+        (Fitted::ENDS[0] * missed).max(error_of_three(loads))
     } else {
-        (OF_ENDS[1] * missed).max(error_of_seven(loads))
+        (Fitted::ENDS[1] * missed).max(error_of_seven(loads))
     }
 }
 
@@ -54,7 +49,7 @@ fn error_of_three(loads: &[[f64; 3]]) -> f64 {
     let mean = [0, 1, 2].map(|j| GAUSS_KRONROD.iter().zip(loads).map(|((_, w, _), load)| w * load[j]).sum::<f64>());
     let off = |load: &[f64; 3]| norm(&[load[0] - mean[0], load[1] - mean[1], load[2] - mean[2]]);
     let most = loads.iter().map(off).fold(0.0, f64::max);
-    if most > 0.0 { OF_VARIATION * most * (most / norm(&mean)).powi(2).min(1.0) } else { 0.0 }
+    if most > 0.0 { Fitted::VARIATION * most * (most / norm(&mean)).powi(2).min(1.0) } else { 0.0 }
 }
 
 /// Error of the rule of 7 rays from how fast the coefficients of Legendre's series of the loads fall.

@@ -5,7 +5,7 @@
 //! therefore −ℓ ∫ g_B (g_A·δ)/|G| dΣ. For a rigid boundary the pressure alone changes, and −g_B/|G| is the screw of its
 //! normal.
 
-use super::field::{Field, Owner, dot};
+use super::field::Field;
 use super::ray::Node;
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
@@ -14,7 +14,9 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 pub(super) fn stiffness(field: &Field, points: &[Node]) -> Matrix6<f64> {
     let mut sum = Matrix6::zeros();
     for node in points {
-        let [of_a, of_b] = gradients(field, &node.x);
+        let look = field.look(&node.x);
+        // ∇s = ∇S/2s.
+        let [of_a, of_b] = [0, 1].map(|i| Vector3::from(look.gradients[i]) / (2.0 * look.s[i].sqrt()));
         let pushed = match field.b {
             Some(_) => -node.weight / (of_a.z - of_b.z) * of_b,
             None => node.weight * Vector3::new(node.normal[0], node.normal[1], 1.0),
@@ -37,26 +39,4 @@ pub(super) fn turned(stiffness: &Matrix6<f64>, axes: &Matrix3<f64>) -> Matrix6<f
         turned.fixed_view_mut::<3, 3>(row, column).copy_from(&block);
     }
     turned
-}
-
-/// ∇s_A and ∇s_B (0 where there is none) at a point of the frame.
-fn gradients(field: &Field, x: &[f64; 3]) -> [Vector3<f64>; 2] {
-    let mut sums = [(0.0, Vector3::zeros()); 2];
-    for plane in field.planes.iter().filter(|plane| plane.owner != Owner::Edge) {
-        let excess = plane.excess + dot(&plane.normal, x);
-        if excess > 0.0 {
-            let sum = &mut sums[usize::from(plane.owner == Owner::B)];
-            sum.0 += excess * excess;
-            sum.1 += excess * Vector3::from(plane.normal);
-        }
-    }
-    let mut gradients = [Vector3::zeros(); 2];
-    for (i, body) in [Some(&field.a), field.b.as_ref()].into_iter().enumerate() {
-        let Some(body) = body else { continue };
-        let y: Vector3<f64> = Vector3::from(body.from_centre) + Vector3::from(*x);
-        let (w, m) = (body.plane_weight, body.sphere_weight);
-        let s = (w * sums[i].0 + m * y.norm_squared()).sqrt();
-        gradients[i] = (w * sums[i].1 + m * y) / s;
-    }
-    gradients
 }

@@ -2,26 +2,17 @@
 //!
 //! Angles are given by the tangents of their halves.
 
-use super::chart::{Chart, Vector, Wave, node, turn};
+use super::local_coordinates::{LocalCoordinates, Vector, Wave, node, turn};
+use super::numbers::{Limits, SETTLED, UNSETTLED};
 use super::ray::Node;
 use super::rules::{MOST_POINTS, gauss, tapering};
 
-/// Most fixed-point steps towards the corner of a strip.
-const MOST_STEPS: usize = 12;
-
-/// Relative size of a step at which the search for a corner has converged: p is 0 at the corner, so that its error
-/// enters the load by a higher power.
-const SETTLED: f64 = 1e-6;
-
-/// Relative size of the last step above which the search for a corner has not converged.
-const UNSETTLED: f64 = 1e-5;
-
-/// Where a strip ends.
+/// The end of a strip.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum End {
     /// At a distance along the edge.
     At(f64),
-    /// Where a plane comes on or the edge of a triangle is met: its value at the origin of the chart, and how that
+    /// At a plane that comes on, or at the edge of a triangle: its value at the origin of the coordinates, and how that
     /// changes with the coordinates.
     Line { value: f64, slopes: [f64; 3] },
 }
@@ -30,7 +21,7 @@ pub(super) enum End {
 /// along the edge.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Strip {
-    pub chart: Chart,
+    pub coordinates: LocalCoordinates,
     /// Excess over s: of the two planes, and of the third.
     pub radii: [f64; 2],
     pub start: f64,
@@ -48,12 +39,18 @@ pub(super) struct Strip {
 
 impl Strip {
     /// From `start`, or from the ridge, to the rim.
-    pub fn new(chart: Chart, radii: [f64; 2], start: Option<f64>, sign: f64, ends: [End; 2]) -> Option<Self> {
-        let wave = Wave::new(-chart.slopes[0] * radii[0], -chart.slopes[1] * radii[0]);
+    pub fn new(
+        coordinates: LocalCoordinates,
+        radii: [f64; 2],
+        start: Option<f64>,
+        sign: f64,
+        ends: [End; 2],
+    ) -> Option<Self> {
+        let wave = Wave::new(-coordinates.slopes[0] * radii[0], -coordinates.slopes[1] * radii[0]);
         let start = start.unwrap_or_else(|| wave.peak());
-        let [d, e, t] = chart.arms;
+        let [d, e, t] = coordinates.arms;
         let mut strip = Self {
-            chart,
+            coordinates,
             crosses: [d.cross(&t), e.cross(&t), e.cross(&d)],
             radii: [radii[0], radii[1]],
             start,
@@ -66,7 +63,7 @@ impl Strip {
         for side in 0..2 {
             let first = strip.end(side, start).0;
             let (mut width, mut along, mut step) = (strip.width(first).0, first, f64::INFINITY);
-            for _ in 0..MOST_STEPS {
+            for _ in 0..Limits::ITERATIONS {
                 along = strip.end(side, start + width).0;
                 let next = strip.width(along).0;
                 step = (next - width).abs();
@@ -107,8 +104,8 @@ impl Strip {
     /// How far it extends in angle at a distance along the edge, and how fast that changes.
     #[inline(always)]
     fn width(&self, along: f64) -> (f64, f64) {
-        let g = self.chart.slopes[2];
-        let (rim, sine) = self.wave.fallen_to(self.chart.c + g * along - self.radii[1], self.sign);
+        let g = self.coordinates.slopes[2];
+        let (rim, sine) = self.wave.fallen_to(self.coordinates.c + g * along - self.radii[1], self.sign);
         (rim - self.start, -0.5 * (1.0 + rim * rim) * g / (self.wave.size * sine))
     }
 
@@ -119,7 +116,7 @@ impl Strip {
         (self.radii[1] + a * cos + b * sin, b * cos - a * sin)
     }
 
-    /// Where an end lies at an angle, and its change with it.
+    /// Place of an end at an angle, and its derivative by the angle.
     #[inline(always)]
     fn end(&self, side: usize, theta: f64) -> (f64, f64) {
         match self.ends[side] {
@@ -130,7 +127,7 @@ impl Strip {
                 let (f, f1) = self.denominator(sin, cos);
                 let k = (cos * h1 + sin * h2) * self.radii[0] / f;
                 let k1 = (cos * h2 - sin * h1) * self.radii[0] / f - k * f1 / f;
-                let (c, g) = (self.chart.c, self.chart.slopes[2]);
+                let (c, g) = (self.coordinates.c, self.coordinates.slopes[2]);
                 let (up, down) = (value + c * k, h3 + g * k);
                 (-up / down, -rate * (c * k1 * down - up * g * k1) / (down * down))
             }
@@ -143,7 +140,7 @@ impl Strip {
         let Wave { a, b, size } = self.wave;
         let rise = size - a;
         let ends_at_rim = self.start == 0.0 && self.ends.iter().any(|end| matches!(end, End::At(_)));
-        let (g, c) = (self.chart.slopes[2].abs(), self.chart.c.abs());
+        let (g, c) = (self.coordinates.slopes[2].abs(), self.coordinates.c.abs());
         if ends_at_rim && b > 0.0 { rise * rise / (g * c) } else { 0.0 }
     }
 
@@ -151,30 +148,30 @@ impl Strip {
     pub fn depth(&self) -> f64 {
         let along = 0.5 * (self.starts[0] + self.starts[1]);
         let (sin, cos, _) = turn(self.start);
-        1.0 - (self.chart.c + self.chart.slopes[2] * along) / self.denominator(sin, cos).0
+        1.0 - (self.coordinates.c + self.coordinates.slopes[2] * along) / self.denominator(sin, cos).0
     }
 
     pub fn place(&self, [theta, along]: [f64; 2]) -> Vector {
         let (sin, cos, _) = turn(theta);
-        let s = (self.chart.c + self.chart.slopes[2] * along) / self.denominator(sin, cos).0;
+        let s = (self.coordinates.c + self.coordinates.slopes[2] * along) / self.denominator(sin, cos).0;
         let scale = s * self.radii[0];
-        self.chart.origin + self.chart.combine([scale * cos, scale * sin, along])
+        self.coordinates.origin + self.coordinates.combine([scale * cos, scale * sin, along])
     }
 
-    /// What depends on the angle alone: the vector of area over s, the direction outwards, and 1/F.
+    /// The parts of a node that depend on the angle alone: the vector of area over s, the direction outwards, and 1/F.
     #[inline(always)]
     fn across(&self, theta: f64) -> (Vector, Vector, f64) {
         let (sin, cos, rate) = turn(theta);
         let (f, f1) = self.denominator(sin, cos);
         let inverse = 1.0 / f;
-        let [d, e, _] = self.chart.arms;
+        let [d, e, _] = self.coordinates.arms;
         let [by_d, by_e, along] = self.crosses;
         let r = self.radii[0];
-        // Of s·outwards + along·t, by the angle and along the edge.
+        // Derivatives of s·outwards + along·t by the angle and along the edge.
         let fall = r * f1 * inverse;
         let area = (-fall * cos - r * sin) * by_d
             + (r * cos - fall * sin) * by_e
-            + (r * r * self.chart.slopes[2] * inverse) * along;
+            + (r * r * self.coordinates.slopes[2] * inverse) * along;
         (rate * area, r * (cos * d + sin * e), inverse)
     }
 
@@ -204,8 +201,8 @@ impl Strip {
                     width * (to - from) - lambda * width_by_tau * (from1 * first * (1.0 - tau) + to1 * last * tau);
                 let along = from + tau * (to - from);
                 let (area, outwards, inverse) = self.across(theta);
-                let s = (self.chart.c + self.chart.slopes[2] * along) * inverse;
-                let x = self.chart.origin + s * outwards + along * self.chart.arms[2];
+                let s = (self.coordinates.c + self.coordinates.slopes[2] * along) * inverse;
+                let x = self.coordinates.origin + s * outwards + along * self.coordinates.arms[2];
                 visit(node(x, s * area, s, weight * weight_along * (self.sign * jacobian).max(0.0))?);
             }
         }

@@ -1,11 +1,9 @@
 //! The outline of a cell, cut into triangles whose sides are parabolas.
 
 use super::faces::Corner;
+use super::numbers::Limits;
 use super::rim::parabola;
 use super::triangle_rule::CurvedTriangle;
-
-/// Most sides of an outline, halved or not, that is cut ear by ear.
-const MOST_SIDES: usize = 48;
 
 /// Buffers.
 #[derive(Debug, Default)]
@@ -47,7 +45,7 @@ pub(super) fn cut(outline: &[Corner], ears: &mut Ears, mut give: impl FnMut(Curv
     }
     ears.sides.clear();
     ears.sides.extend_from_slice(outline);
-    while ears.sides.len() <= MOST_SIDES {
+    while ears.sides.len() <= Limits::SIDES {
         ears.left.clone_from(&ears.sides);
         ears.triangles.clear();
         if clip(&mut ears.left, &mut ears.triangles).is_some() {

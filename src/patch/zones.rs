@@ -1,17 +1,14 @@
 //! Where the zones of a patch lie: strips and caps around a flat part, or about an edge, or one disc.
 
 use super::cap::{Cap, Third};
-use super::chart::{Chart, Flat, Vector, Wave, normal, radius};
 use super::disc::Disc;
 use super::field::{Field, Owner};
+use super::local_coordinates::{Flat, LocalCoordinates, Vector, Wave, normal, radius};
+use super::numbers::{BULGE, FINE};
 use super::piece::{Kind, Piece};
 use super::polygon::{Corner, Level, OPEN, cut};
 use super::ray::RIM;
-use super::rules::FINE;
 use super::strip::{End, Strip};
-
-/// Factor by which a zone reaches farther from its middle than the places of its border that are computed, at most.
-pub(super) const BETWEEN: f64 = 1.1;
 
 /// The plane of A and that of B whose faces meet.
 type Faces = (usize, Option<usize>);
@@ -77,27 +74,28 @@ impl Zones<'_, '_, '_> {
             let (two, one, flat) = if of == Owner::A { (i, &a, other) } else { (j?, other, &a) };
             let planes = &self.field.planes;
             let edge = [&planes[two], &planes[side as usize]];
-            let chart = Chart::edge(edge, flat)?;
+            let coordinates = LocalCoordinates::edge(edge, flat)?;
             let neighbours = [polygon[(k + count - 1) % count].side, polygon[(k + 1) % count].side];
             let at = [polygon[k].at, polygon[(k + 1) % count].at].map(|at| level.point(&at));
             let mut ends = [0, 1].map(|e| {
-                let along = chart.arms[2].dot(&(at[e] - chart.origin));
-                (self.end(&chart, neighbours[e], along), neighbours[e], along)
+                let along = coordinates.arms[2].dot(&(at[e] - coordinates.origin));
+                (self.end(&coordinates, neighbours[e], along), neighbours[e], along)
             });
             if ends[0].2 > ends[1].2 {
                 ends.swap(0, 1);
             }
             let radii = [one.radius, flat.radius];
-            let strip = Strip::new(chart, radii, Some(0.0), 1.0, [ends[0].0, ends[1].0])?;
+            let strip = Strip::new(coordinates, radii, Some(0.0), 1.0, [ends[0].0, ends[1].0])?;
             let active = [i as u32, j.map_or(RIM, |j| j as u32), side, RIM];
             self.strip(strip, &active, neighbours);
             // A cap belongs to the strip before it.
             let next = neighbours[1];
             if let Some(of_next) = self.owner(next) {
                 let planes = &self.field.planes;
-                let chart = Chart::corner([&planes[two], &planes[side as usize], &planes[next as usize]], flat);
+                let coordinates =
+                    LocalCoordinates::corner([&planes[two], &planes[side as usize], &planes[next as usize]], flat);
                 let third = if of_next == of { Third::Same } else { Third::Other };
-                match chart.and_then(|chart| Cap::new(chart, &strip, third)) {
+                match coordinates.and_then(|coordinates| Cap::new(coordinates, &strip, third)) {
                     Some(cap) => self.cap(cap, &[active[0], active[1], side, next]),
                     None => return None,
                 }
@@ -112,10 +110,13 @@ impl Zones<'_, '_, '_> {
     }
 
     /// The end of a strip at a plane, the edge of a triangle or, at a place, where s = 1.
-    fn end(&self, chart: &Chart, side: u32, along: f64) -> End {
+    fn end(&self, coordinates: &LocalCoordinates, side: u32, along: f64) -> End {
         self.field.planes.get(side as usize).map_or(End::At(along), |plane| {
             let n = normal(plane);
-            End::Line { value: plane.excess + n.dot(&chart.origin), slopes: chart.arms.map(|arm| n.dot(&arm)) }
+            End::Line {
+                value: plane.excess + n.dot(&coordinates.origin),
+                slopes: coordinates.arms.map(|arm| n.dot(&arm)),
+            }
         })
     }
 
@@ -178,14 +179,14 @@ impl Zones<'_, '_, '_> {
     /// nothing off.
     fn beyond_edges(&self, border: &[Vector], ends: &[u32]) -> f64 {
         let middle = border.iter().sum::<Vector>() / border.len() as f64;
-        let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BETWEEN;
+        let reach = border.iter().map(|x| (x - middle).norm()).fold(0.0, f64::max) * BULGE;
         let edges = self.field.planes.iter().enumerate().filter(|(_, plane)| plane.owner == Owner::Edge);
         let others = edges.filter(|(k, _)| !ends.contains(&(*k as u32)));
         others
             .map(|(_, edge)| {
                 let n = normal(edge);
                 let outwards = border.iter().map(|x| n.dot(&(x - middle))).fold(0.0, f64::max);
-                let beyond = edge.excess + n.dot(&middle) + BETWEEN * outwards;
+                let beyond = edge.excess + n.dot(&middle) + BULGE * outwards;
                 2.0 * reach * beyond.clamp(0.0, 2.0 * reach)
             })
             .sum()
@@ -218,8 +219,8 @@ impl Zones<'_, '_, '_> {
             _ => return None,
         };
         let last_flat = self.flat(last);
-        let chart = Chart::corner(three.map(|k| &planes[k]), &last_flat)?;
-        let disc = Disc::new(chart, [radius(self.field, planes[three[0]].owner), last_flat.radius], third)?;
+        let coordinates = LocalCoordinates::corner(three.map(|k| &planes[k]), &last_flat)?;
+        let disc = Disc::new(coordinates, [radius(self.field, planes[three[0]].owner), last_flat.radius], third)?;
         // Between places on the rim it reaches out a little farther.
         let outline = disc.outline();
         let middle = outline.iter().sum::<Vector>() / outline.len() as f64;
@@ -239,10 +240,10 @@ impl Zones<'_, '_, '_> {
     fn edge(&mut self, i: usize, a: usize, j: Option<usize>, start: &Vector) -> Option<bool> {
         let flat = self.flat(j);
         let radii = [radius(self.field, self.field.planes[i].owner), flat.radius];
-        let Some(chart) = Chart::edge([&self.field.planes[i], &self.field.planes[a]], &flat) else {
+        let Some(coordinates) = LocalCoordinates::edge([&self.field.planes[i], &self.field.planes[a]], &flat) else {
             return Some(false);
         };
-        let wave = Wave::new(-chart.slopes[0] * radii[0], -chart.slopes[1] * radii[0]);
+        let wave = Wave::new(-coordinates.slopes[0] * radii[0], -coordinates.slopes[1] * radii[0]);
         let [cos, sin] = [wave.a / wave.size, wave.b / wave.size];
         if !(cos > 0.0 && sin > 0.0) {
             return Some(false);
@@ -250,23 +251,24 @@ impl Zones<'_, '_, '_> {
         let known = [i as u32, a as u32, j.map_or(RIM, |j| j as u32)];
         for _ in 0..8 {
             // Along the ridge, where s is least at each place along the edge: up to where s = 1 or a plane comes on.
-            let slope = chart.slopes[2];
+            let slope = coordinates.slopes[2];
             let f = wave.size + flat.radius;
-            let top = (f - chart.c) / slope;
+            let top = (f - coordinates.c) / slope;
             let mut ends = [(f64::NEG_INFINITY, RIM), (f64::INFINITY, RIM)];
             ends[usize::from(slope > 0.0)].0 = top;
             if slope == 0.0 {
                 ends = [(f64::NEG_INFINITY, RIM), (f64::INFINITY, RIM)];
-                if chart.c > f {
+                if coordinates.c > f {
                     return Some(false);
                 }
             }
             let k = radii[0] / f;
             for (number, plane) in self.field.planes.iter().enumerate().filter(|(k, _)| !known.contains(&(*k as u32))) {
                 let n = normal(plane);
-                let [h1, h2, h3] = chart.arms.map(|arm| n.dot(&arm));
+                let [h1, h2, h3] = coordinates.arms.map(|arm| n.dot(&arm));
                 let ridge = k * (cos * h1 + sin * h2);
-                let (value, rate) = (plane.excess + n.dot(&chart.origin) + chart.c * ridge, h3 + slope * ridge);
+                let (value, rate) =
+                    (plane.excess + n.dot(&coordinates.origin) + coordinates.c * ridge, h3 + slope * ridge);
                 let at = -value / rate;
                 if rate > 0.0 && at < ends[1].0 {
                     ends[1] = (at, number as u32);
@@ -279,7 +281,7 @@ impl Zones<'_, '_, '_> {
             if !(ends[1].0 > ends[0].0) {
                 return Some(false);
             }
-            let places = ends.map(|(t, _)| chart.origin + t * chart.arms[2]);
+            let places = ends.map(|(t, _)| coordinates.origin + t * coordinates.arms[2]);
             let farthest = places.iter().map(|x| x.norm()).fold(start.norm(), f64::max);
             let needed = 1.2 * farthest + 2.0 * (radii[0] + radii[1]).min(farthest);
             if needed > self.field.loaded() {
@@ -287,7 +289,7 @@ impl Zones<'_, '_, '_> {
                 self.field.load(needed.min(8.0 * loaded).max(2.0 * loaded));
                 continue;
             }
-            return self.ridge(&chart, radii, [i, a], j, ends);
+            return self.ridge(&coordinates, radii, [i, a], j, ends);
         }
         None
     }
@@ -295,7 +297,7 @@ impl Zones<'_, '_, '_> {
     /// Two strips from the ridge to both sides, and caps at their ends.
     fn ridge(
         &mut self,
-        chart: &Chart,
+        coordinates: &LocalCoordinates,
         radii: [f64; 2],
         [i, a]: [usize; 2],
         j: Option<usize>,
@@ -304,8 +306,8 @@ impl Zones<'_, '_, '_> {
         let flat = self.flat(j);
         let active = [i as u32, a as u32, j.map_or(RIM, |j| j as u32), RIM];
         for sign in [1.0, -1.0] {
-            let limits = ends.map(|(along, side)| self.end(chart, side, along));
-            let strip = Strip::new(*chart, radii, None, sign, limits)?;
+            let limits = ends.map(|(along, side)| self.end(coordinates, side, along));
+            let strip = Strip::new(*coordinates, radii, None, sign, limits)?;
             self.strip(strip, &active, ends.map(|(_, side)| side));
             for (_, side) in ends {
                 let Some(plane) = self.field.planes.get(side as usize).filter(|plane| plane.owner != Owner::Edge)
@@ -314,8 +316,8 @@ impl Zones<'_, '_, '_> {
                 };
                 let planes = &self.field.planes;
                 let third = if plane.owner == planes[i].owner { Third::Same } else { Third::Other };
-                let chart = Chart::corner([&planes[i], &planes[a], plane], &flat)?;
-                let cap = Cap::new(chart, &strip, third)?;
+                let coordinates = LocalCoordinates::corner([&planes[i], &planes[a], plane], &flat)?;
+                let cap = Cap::new(coordinates, &strip, third)?;
                 self.cap(cap, &[active[0], active[1], active[2], side]);
             }
         }

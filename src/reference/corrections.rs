@@ -1,39 +1,15 @@
 //! The sequence of programs, each a correction to the point before.
 
 use super::goal::{Goal, both};
+use super::numbers::{
+    AGREEMENT, BINDING, BOTTOM, CERTIFIED, FIRST_BOX, GROW, LAST_BOX, LEAST_SCALE, MAX_PASSES, REPEAT, RESCUE, SHRINK,
+};
 use super::program::{Answer, Program, Tuning};
 use super::solution::{ConeProgramError, ConeProgramSolution};
 use crate::linalg::root::{Bracket, halved};
 use crate::pair::pair::Pair;
 use clarabel::solver::SolverStatus;
 use nalgebra::Vector3;
-
-/// Box of the first correction, as a part of the length unit: well above the error of the first pass.
-const FIRST_BOX: f64 = 1e-4;
-/// A box need not be smaller than this part of the distance over which s doubles.
-const LAST_BOX: f64 = 0.1;
-/// Most that one pass shrinks the box.
-const SHRINK: f64 = 1e-3;
-/// Growth of the box when it binds.
-const GROW: f64 = 30.0;
-/// Growth of the box when every setting failed: it may hold no feasible point.
-const RESCUE: f64 = 1e3;
-/// A correction longer than this part of the box asks for a wider one.
-const BINDING: f64 = 0.5;
-/// Least s used as a unit; below it s is as good as zero.
-const LEAST_SCALE: f64 = 1e-6;
-/// An s below this is rounding at the minimum of S.
-const BOTTOM: f64 = 1e-12;
-/// Largest relative difference between clarabel's objectives and s by definition in a pass that is trusted.
-const AGREEMENT: f64 = 1e-8;
-/// Largest relative distance of s from a lower bound that holds outside the box as well. The bound assumes the worst
-/// case, an optimum at the far end of the pair; s itself is some four digits more accurate.
-const CERTIFIED: f64 = 1e-5;
-/// Relative change of s below which two passes agree.
-const REPEAT: f64 = 1e-10;
-/// Most corrections. Ordinary pairs need one or two, near-polyhedral ones up to 4; sizes, radii and
-/// distances drawn at random from eight decades up to 18 (measured).
-const MAX_PASSES: u32 = 40;
 
 /// The first pass: loose, since every later pass is checked by itself.
 const FIRST: Tuning = Tuning {

@@ -56,6 +56,7 @@
 
 mod corrections;
 mod goal;
+mod numbers;
 mod program;
 mod solution;
 

@@ -1,5 +1,6 @@
 //! The polyhedron of a domain, and the planes that bound and cut it.
 
+use super::numbers::{EXTENTS, FAR, LEAST_CUT};
 use crate::linalg::number::direction;
 use crate::particle::cutter::Cutter;
 use crate::particle::plane::Plane;
@@ -8,18 +9,6 @@ use crate::rock::block::FaceOf;
 use crate::rock::error::RockError;
 use crate::rock::joint::Joint;
 use nalgebra::Vector3;
-use std::ops::RangeInclusive;
-
-/// Least depth of a cut over the size of the domain: some rounding of corners.
-const LEAST_CUT: f64 = 1e-13;
-
-/// Half of the cube in which a domain is looked for, over the largest distance of its planes from the origin: the
-/// second where it does not end in the first, as a flat one.
-const FAR: [f64; 2] = [1e4, 1e8];
-
-/// Half extents of domains. Fifth powers of lengths, as moments of inertia are, and those of blocks a millionth as
-/// large, are doubles with all their digits.
-pub(crate) const EXTENTS: RangeInclusive<f64> = 1e-50..=1e50;
 
 /// A unit normal, and the height of its plane above some origin.
 pub(crate) type Oriented = (Vector3<f64>, f64);

@@ -1,23 +1,12 @@
 //! How many blocks joints will make, before any of them cuts.
 
+use super::numbers::{DEVIATIONS, LEAST_DRAWN, Limits, ONE_PLANE};
 use crate::particle::polyhedron::Polyhedron;
 use crate::random::Random;
 use crate::rock::domain::Oriented;
 use crate::rock::joint::Joint;
 use nalgebra::{Matrix3, Vector3};
 use std::collections::HashSet;
-
-/// Up to so many pairs or triples are all looked at. Of more a sample is drawn, of as many at most and of so many at
-/// least: each costs a look at every joint, and the whole so many looks.
-const MOST_DRAWN: usize = 20_000;
-const LEAST_DRAWN: usize = 1_000;
-const MOST_LOOKS: usize = 4_000_000;
-
-/// Planes this near, over the size of the domain, are one, and go through a point.
-const SAME: f64 = 1e-9;
-
-/// Standard deviations by which a number found by chance is taken lower.
-const DEVIATIONS: f64 = 4.0;
 
 /// The joints that cut a domain, about the origin of its polyhedron, with the planes of the domain.
 struct Crossing<'a> {
@@ -47,7 +36,7 @@ pub(super) fn expected_blocks(domain: &Polyhedron, outer: &[Oriented], joints: &
     let mut is_new = |joint: &&Joint| {
         let n = joint.normal * joint.normal[joint.normal.iamax()].signum();
         let numbers = [n.x, n.y, n.z, n.dot(&joint.point) / size];
-        planes.insert(numbers.map(|number| (number / SAME).round() as i64))
+        planes.insert(numbers.map(|number| (number / ONE_PLANE).round() as i64))
     };
     let crossing =
         Crossing { outer, size, joints: joints.iter().filter(meets).filter(|joint| is_new(joint)).collect() };
@@ -58,12 +47,12 @@ pub(super) fn expected_blocks(domain: &Polyhedron, outer: &[Oriented], joints: &
 /// The sum of a number over all choices of N out of `count`; the numbers are 0 to 1.
 fn of_all<const N: usize>(count: usize, number: impl Fn([usize; N]) -> f64) -> f64 {
     let choices = (0..N).map(|i| (count as f64 - i as f64) / (i as f64 + 1.0)).product::<f64>().max(0.0);
-    if choices <= MOST_DRAWN as f64 {
+    if choices <= Limits::DRAWN as f64 {
         let mut chosen = [0; N];
         return every(&mut chosen, 0, count, &number);
     }
     let mut random = Random::new(0, N as u64);
-    let drawn = (MOST_LOOKS / count).clamp(LEAST_DRAWN, MOST_DRAWN);
+    let drawn = (Limits::LOOKS / count).clamp(LEAST_DRAWN, Limits::DRAWN);
     let (mut sum, mut squares) = (0.0, 0.0);
     for _ in 0..drawn {
         let mut chosen = [0; N];
@@ -102,8 +91,9 @@ fn every<const N: usize>(
 impl Crossing<'_> {
     /// Number of planes through all of some points.
     fn through(&self, points: &[Vector3<f64>]) -> f64 {
-        let is_on =
-            |joint: &&&Joint| points.iter().all(|at| joint.normal.dot(&(at - joint.point)).abs() <= SAME * self.size);
+        let is_on = |joint: &&&Joint| {
+            points.iter().all(|at| joint.normal.dot(&(at - joint.point)).abs() <= ONE_PLANE * self.size)
+        };
         self.joints.iter().filter(is_on).count() as f64
     }
 
@@ -113,7 +103,7 @@ impl Crossing<'_> {
         let [a, b] = [self.joints[i], self.joints[j]];
         let along = a.normal.cross(&b.normal);
         let square = along.norm_squared();
-        if !(square > SAME * SAME) {
+        if !(square > ONE_PLANE * ONE_PLANE) {
             return 0.0;
         }
         let of = |joint: &Joint| joint.normal.dot(&joint.point);
@@ -149,7 +139,7 @@ impl Crossing<'_> {
         let rows = Matrix3::from_rows(&of.map(|joint| joint.normal.transpose()));
         let heights = Vector3::from(of.map(|joint| joint.normal.dot(&joint.point)));
         // Planes through one line have a determinant of rounding.
-        let inverse = rows.try_inverse().filter(|_| rows.determinant().abs() > SAME);
+        let inverse = rows.try_inverse().filter(|_| rows.determinant().abs() > ONE_PLANE);
         let Some(at) = inverse.map(|inverse| inverse * heights) else { return 0.0 };
         if self.outer.iter().all(|(n, height)| n.dot(&at) < *height) && of.iter().all(|joint| joint.holds(&at)) {
             3.0 / self.through(&[at]).max(3.0)

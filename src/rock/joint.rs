@@ -1,16 +1,11 @@
 //! A joint: a plane through the rock, or a disc or polygon of it.
 
+use super::numbers::{FLAT, SHORT};
 use crate::rock::error::{RockError, within};
 use crate::rock::polygon::{axes_across, clip, within_circle};
 use nalgebra::{Vector2, Vector3};
 use std::f64::consts::TAU;
 use std::sync::Arc;
-
-/// A side this short over the size of its polygon has no direction.
-pub(super) const SHORT: f64 = 1e-10;
-
-/// How far corners of an outline may lie off their plane, over its size.
-const FLAT: f64 = 1e-6;
 
 /// A plane, or a disc or convex polygon of it, along which rock has parted. Axes: x east, y north, z up.
 #[derive(Clone, Debug, PartialEq)]

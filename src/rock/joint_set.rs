@@ -1,14 +1,12 @@
 //! Joints of about one orientation at about one spacing.
 
+use super::numbers::Limits;
 use crate::random::Random;
 use crate::rock::error::{RockError, within};
 use crate::rock::joint::Joint;
 use crate::rock::polygon::axes_across;
 use nalgebra::Vector3;
 use std::f64::consts::{PI, TAU};
-
-/// More are taken for a mistake.
-const MOST_JOINTS: f64 = 1e7;
 
 /// A joint set: dip and dip direction as of [`Joint::new`], in degrees, and the mean spacing of its joints across it,
 /// length.
@@ -61,7 +59,7 @@ impl JointSet {
         }
         within(
             self.spacing,
-            2.0 * reach / self.spacing <= MOST_JOINTS,
+            2.0 * reach / self.spacing <= Limits::JOINTS,
             "spacing",
             "wide enough for at most 10 million joints",
         )?;
@@ -80,7 +78,7 @@ impl JointSet {
     fn discs(&self, mean: &Joint, radius: f64, random: &mut Random) -> Result<Vec<Joint>, RockError> {
         let ball = 4.0 / 3.0 * PI * radius.powi(3);
         let met = ball / (self.spacing * PI * self.radius.powi(2) * mean_cosine(self.fisher));
-        within(self.spacing, met <= MOST_JOINTS, "spacing", "wide enough for at most 10 million joints")?;
+        within(self.spacing, met <= Limits::JOINTS, "spacing", "wide enough for at most 10 million joints")?;
         let (mut joints, mut crossed) = (Vec::new(), 0.0);
         // A Poisson process: the gaps between the numbers of discs are exponential.
         while {

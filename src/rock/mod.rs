@@ -5,6 +5,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what cutting is tuned by |
 //! | `error` | why a rock mass cannot be cut |
 //! | `polygon` | convex polygons of a plane |
 //! | `joint` | a plane, a disc or a polygon in the rock, by dip and dip direction |
@@ -15,7 +16,7 @@
 //! | `expected` | how many blocks joints will make |
 //! | `cutting` | what one plane makes of one part of the domain |
 //! | `regions` | what regions make of a part that joints have left |
-//! | `round` | what some joints make of many parts, on several threads |
+//! | `parallel_cut` | what some joints make of many parts, on several threads |
 //! | `slicing` | the whole |
 //! | `partners` | which faces lie on each other |
 //!
@@ -28,20 +29,22 @@ mod error;
 mod expected;
 mod joint;
 mod joint_set;
+mod numbers;
+mod parallel_cut;
 mod partners;
 mod polygon;
 mod regions;
-mod round;
 mod settings;
 mod slicing;
 #[cfg(test)]
 mod tests;
 
 pub use block::{Block, BlockFace, FaceOf};
-pub(crate) use domain::{EXTENTS, enclosed, unit_planes};
+pub(crate) use domain::{enclosed, unit_planes};
 pub use error::RockError;
 pub use joint::Joint;
 pub use joint_set::JointSet;
+pub(crate) use numbers::EXTENTS;
 pub use partners::{Interface, Partners};
 pub use settings::SliceSettings;
 pub use slicing::{RockMass, slice, slice_with_regions};

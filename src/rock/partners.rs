@@ -1,14 +1,11 @@
 //! Which faces lie on each other.
 
+use super::numbers::{ONE_PLANE, SHORT};
 use crate::rock::block::FaceOf;
-use crate::rock::joint::SHORT;
 use crate::rock::polygon::{axes_across, clip};
 use crate::rock::slicing::RockMass;
 use nalgebra::{Vector2, Vector3};
 use std::collections::BTreeMap;
-
-/// Two faces meet if they share more than this of the smaller one: some rounding of corners over the size of a block.
-const LEAST_SHARE: f64 = 1e-9;
 
 /// Two faces that lie on each other.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -100,7 +97,7 @@ impl RockMass {
                 }
                 let polygon = shared(&one.corners, &other.corners);
                 let area = area_of(&polygon);
-                if area > LEAST_SHARE * one.area.min(other.area) {
+                if area > ONE_PLANE * one.area.min(other.area) {
                     let corners = polygon.iter().map(|at| origin + u * at.x + v * at.y).collect();
                     found.push(Interface { faces: [one.at, other.at], area, corners });
                 }

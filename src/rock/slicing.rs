@@ -1,5 +1,6 @@
 //! A domain, cut by one joint after the other.
 
+use super::numbers::{FEW_PARTS, Limits, PIECES};
 use crate::particle::plane::Plane;
 use crate::rock::block::Block;
 use crate::rock::cutting::{Cuts, Part, Workbench};
@@ -7,19 +8,9 @@ use crate::rock::domain::{Oriented, enclosed, faces, unit_planes};
 use crate::rock::error::RockError;
 use crate::rock::expected::expected_blocks;
 use crate::rock::joint::Joint;
+use crate::rock::parallel_cut::{self, Round};
 use crate::rock::regions::parted;
-use crate::rock::round::{self, Round};
 use crate::rock::settings::SliceSettings;
-
-/// Rounds of joints that there are at most while parts are few.
-const ROUNDS: usize = 100;
-
-/// Parts for each thread from which on a round is as long as [`PIECES`] says: fewer may be of unlike cost.
-const FEW: usize = 64;
-
-/// Pieces that a round should add, which takes a fraction of a second; with four times as many it is given up, and done
-/// again with half its joints.
-const PIECES: usize = 1 << 17;
 
 /// What a domain was cut into.
 #[derive(Clone, Debug)]
@@ -107,12 +98,12 @@ pub fn slice_with_regions(
                 if length > 1 { settings.most_blocks.min(parts.len() + 4 * PIECES) } else { settings.most_blocks };
             if goes_on && range.end < joints.len() {
                 let keep = |_, part: &Part, _: &mut Workbench, parts: &mut Vec<Part>| parts.push(part.clone());
-                if let Ok(round) = round::cut(settings.threads, &parts, &cuts, range, most, keep) {
+                if let Ok(round) = parallel_cut::cut(settings.threads, &parts, &cuts, range, most, keep) {
                     mass.note(&round, length);
                     parts = round.chunks.into_iter().flat_map(|chunk| chunk.results).collect();
                     break;
                 }
-            } else if let Ok(round) = round::cut(settings.threads, &parts, &cuts, range, most, finish) {
+            } else if let Ok(round) = parallel_cut::cut(settings.threads, &parts, &cuts, range, most, finish) {
                 mass.note(&round, length);
                 mass.blocks = Vec::with_capacity(round.chunks.iter().map(|chunk| chunk.results.len()).sum());
                 let mut first = 0;
@@ -144,8 +135,8 @@ impl RockMass {
 /// How many joints of `all` the next round has, after `done` of them have made so many parts: the number of blocks
 /// grows as the cube of that of the joints, unless these all belong to one set.
 fn round_length(done: usize, all: usize, parts: usize, settings: &SliceSettings) -> usize {
-    let by_count = (all / ROUNDS).max(1);
-    let by_pieces = if parts < FEW * settings.threads.max(1) {
+    let by_count = (all / Limits::ROUNDS).max(1);
+    let by_pieces = if parts < FEW_PARTS * settings.threads.max(1) {
         0
     } else {
         let grown = (1.0 + PIECES as f64 / parts as f64).cbrt();

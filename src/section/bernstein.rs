@@ -3,14 +3,11 @@
 //! A quadratic is c₀(1−λ)² + 2c₁λ(1−λ) + c₂λ², a quartic c₀(1−λ)⁴ + 4c₁λ(1−λ)³ + … + c₄λ⁴. By Descartes' rule the
 //! coefficients change their sign at least as often as the polynomial.
 
+use super::numbers::LAST_STEP;
 use crate::linalg::root::{self, Bracket};
 
 /// A parameter as (1−λ, λ): both ends are equally precise.
 pub(super) type Parameter = [f64; 2];
-
-/// Relative step at which the search for a root ends. The square of it is left in the parameter, and the square of that
-/// in an area, since both arcs are equally far from the contact point where they cross.
-const LAST_STEP: f64 = 1e-7;
 
 /// Where a quadratic with c₀ ≤ 0 ≤ c₂ rises through zero; if it vanishes everywhere, the end.
 pub(super) fn rising_root([c0, c1, c2]: [f64; 3]) -> Parameter {

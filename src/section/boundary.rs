@@ -6,6 +6,7 @@
 use super::arc::Arc;
 use super::cross_section::{CrossSection, Evaluation};
 use super::edge_curve::{EdgeCurve, quarter_turn};
+use super::numbers::{Limits, MISS, TANGENT};
 use super::plane_section::Failure;
 use nalgebra::Vector2;
 use std::f64::consts::FRAC_1_SQRT_2;
@@ -17,16 +18,6 @@ const RAYS: [Vector2<f64>; 3] =
 
 /// Tangent of half the widest angle of an arc on its circle: √3, 120°.
 const WIDEST: f64 = 1.7320508075688772;
-
-/// Multiple of the estimated rounding by which S may miss 1 at the end of an arc. Of random arcs 99.9 % miss it by less
-/// than once the estimate; with a wrong active set an arc misses it by many orders of magnitude.
-const MISS: f64 = 100.0;
-
-/// Most Newton steps that correct the end of an arc; none or one are usual.
-const MOST_CORRECTIONS: usize = 4;
-
-/// Sine below which a line counts as a tangent of the boundary.
-const TANGENT: f64 = 1e-8;
 
 /// The boundary of a cross-section, traced as far as the current point.
 #[derive(Debug)]
@@ -186,7 +177,7 @@ impl<'s> Boundary<'s> {
     /// Moves the current point to where S = 1 and the line of the event has no excess, both to rounding: the next arc
     /// would inherit the error.
     fn correct(&mut self, event: Event) {
-        for _ in 0..MOST_CORRECTIONS {
+        for _ in 0..Limits::CORRECTIONS {
             let Evaluation { value, half_gradient, .. } = self.here;
             let on_boundary = self.here.on_boundary();
             let to_boundary = -0.5 * value / half_gradient.norm_squared() * half_gradient;

@@ -11,7 +11,8 @@
 
 use super::depth;
 use super::edge_curve::{EdgeCurve, quarter_turn};
-use super::lines::{Line, Lines, ROUNDING};
+use super::lines::{Line, Lines};
+use super::numbers::{ON_BOUNDARY, ON_SURFACE, ROUNDING, SHALLOW};
 use super::plane_section::{Failure, PlaneSection};
 use crate::linalg::root::{Bracket, MOST_STEPS};
 use nalgebra::Vector2;
@@ -49,16 +50,6 @@ impl Evaluation {
     }
 }
 
-/// Multiple of the estimated rounding of S up to which a point counts as on the boundary.
-const ON_BOUNDARY: f64 = 4.0 * f64::EPSILON;
-
-/// 1 − S at the contact point, as a multiple of the estimate of its rounding, below which it is evaluated in
-/// double-double. Above, its relative error and with it that of the area is at most 1e-11; the estimate is ample.
-const SMALL: f64 = 1e11;
-
-/// S − 1 up to which a contact point counts as on the surface: what a solver may leave.
-const ON_SURFACE: f64 = 1e-6;
-
 impl<'s> CrossSection<'s> {
     /// Fails when the origin is outside.
     pub fn new(section: &'s PlaneSection, buffer: &'s mut [Line]) -> Result<Self, Failure> {
@@ -75,7 +66,7 @@ impl<'s> CrossSection<'s> {
         let size = point.norm() + shape.bounds.offset_within(point.norm());
         let mut depth = 1.0 - plane_weight * sum - sphere_weight * point.norm_squared();
         let rounding = ROUNDING * (1.0 + 2.0 * plane_weight * pull * size);
-        if depth < SMALL * rounding {
+        if depth < SHALLOW * rounding {
             depth = depth::of(section);
         }
         if !(depth >= -ON_SURFACE - rounding) {

@@ -6,24 +6,16 @@ use super::boundary::Boundary;
 use super::cross_section::CrossSection;
 use super::edge_curve::EdgeCurve;
 use super::lines::Line;
+use super::numbers::{Limits, ROUNDING};
 use super::plane_section::{Failure, PlaneSection};
 use nalgebra::Vector2;
-
-/// Sizes of the buffers for lines on the stack, which are cleared at each call: usually the smaller one is enough.
-const BUFFERS: [usize; 2] = [32, 256];
-
-/// Most bisections of an arc: arcs that touch are then nearer to each other than rounding.
-const DEEPEST: u32 = 30;
-
-/// Relative distances below this are rounding (estimated).
-const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 /// The area, in the smallest buffers that hold all lines that come close.
 pub(super) fn area(sections: &[PlaneSection; 2]) -> Result<f64, Failure> {
     let is_full = |found: &Result<f64, Failure>| *found == Err(Failure::BufferFull);
-    let mut found = on_stack::<{ BUFFERS[0] }>(sections);
+    let mut found = on_stack::<{ Limits::LINES[0] }>(sections);
     if is_full(&found) {
-        found = on_stack::<{ BUFFERS[1] }>(sections);
+        found = on_stack::<{ Limits::LINES[1] }>(sections);
     }
     if is_full(&found) {
         let most = sections[0].shape.len().max(sections[1].shape.len());
@@ -58,7 +50,7 @@ fn in_buffers(sections: &[PlaneSection; 2], lines_a: &mut [Line], lines_b: &mut 
             (arc_a, rest_a) = (now, Some(rest));
         }
         area += inner_sector(&arc_a, &arc_b, &boundary_b.curve);
-        // When one boundary is complete, only rounding is left of the other.
+        // Once one boundary is complete, the remaining arcs of the other are rounding.
         if rest_a.is_none() && boundary_a.is_complete() || rest_b.is_none() && boundary_b.is_complete() {
             break;
         }
@@ -136,7 +128,7 @@ impl Comparison {
             polar(to, to),
         ];
         let negligible = ROUNDING * (from.norm() + to.norm()) * curve_b.half_gradient.norm();
-        self.isolate(part, quartic, [[1.0, 0.0], [0.0, 1.0]], negligible, DEEPEST);
+        self.isolate(part, quartic, [[1.0, 0.0], [0.0, 1.0]], negligible, Limits::BISECTIONS);
     }
 
     /// The same for the quartic over a range of the parameter of `part`, by bisection until one sign change is left.

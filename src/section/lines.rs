@@ -1,5 +1,6 @@
 //! The planes of a particle as lines of the section, loaded as the boundary comes near them.
 
+use super::numbers::{FIRST_LOADED, ROUNDING};
 use super::plane_section::{Failure, PlaneSection};
 use nalgebra::Vector2;
 
@@ -20,12 +21,6 @@ pub(super) struct Line {
     /// The next of those that may be active at the current point.
     pub next: Option<u32>,
 }
-
-/// Multiple of the rounding of an excess below which its sign means nothing.
-///
-/// The product rate·y has a relative error of γ₂ = ε and the rounding of y adds ε/2, both in units of |y|·|rate|₁; with
-/// the sum that makes 2ε. The factor four on top is an estimate of what a sequence of steps adds.
-pub(super) const ROUNDING: f64 = 8.0 * f64::EPSILON;
 
 impl Line {
     /// The excess at the current point; 0 if it is nothing but rounding.
@@ -89,9 +84,6 @@ pub(super) struct Lines<'s> {
     radius: f64,
 }
 
-/// The distance loaded first, as a part of the radius.
-const FIRST: f64 = 0.125;
-
 impl<'s> Lines<'s> {
     /// The lines that pass closest; all of them if the planes form a single cluster.
     pub fn new(section: &'s PlaneSection, buffer: &'s mut [Line]) -> Result<Self, Failure> {
@@ -102,7 +94,7 @@ impl<'s> Lines<'s> {
         let radius = square.max(0.0).sqrt() + centre.norm();
         let mut lines = Self { section, buffer, used: 0, first_near: None, loaded: -1.0, centre, square, radius };
         if !shape.is_sphere() {
-            lines.load(if shape.clusters.is_single() { radius } else { FIRST * radius })?;
+            lines.load(if shape.clusters.is_single() { radius } else { FIRST_LOADED * radius })?;
         }
         Ok(lines)
     }

@@ -6,6 +6,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what the area is tuned by |
 //! | `bernstein` | quadratics and quartics in Bernstein form: signs and roots |
 //! | `arc` | one arc as a rational quadratic curve: its sector, its parts |
 //! | `edge_curve` | the conic that the boundary follows from a point on |
@@ -28,6 +29,7 @@ mod edge_curve;
 mod intersection;
 mod lines;
 mod moments;
+mod numbers;
 pub(crate) mod outline;
 mod plane_section;
 mod quadrature;

@@ -15,7 +15,7 @@ use super::boundary::Boundary;
 use super::cross_section::CrossSection;
 use super::lines::Line;
 use super::plane_section::{Failure, PlaneSection};
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 /// Integrals over an area of the plane.
@@ -92,7 +92,7 @@ fn segment(z: f64) -> [f64; 4] {
 
 /// Calls `each` with the parts of the boundary of the cut z = 0 of a shape, once around. Fails where the end of one is
 /// not where S = 1 to rounding.
-pub(crate) fn sectors(shape: &Shape, mut each: impl FnMut(Sector)) -> Result<(), Failure> {
+pub(crate) fn sectors(shape: &Solid, mut each: impl FnMut(Sector)) -> Result<(), Failure> {
     let (origin, axes) = (Vector3::zeros(), [Vector3::x(), Vector3::y()]);
     let section = PlaneSection { shape, branch: origin, rotation: Matrix3::identity(), point: origin, axes };
     let mut lines = vec![Line::default(); shape.len()];

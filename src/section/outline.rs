@@ -2,24 +2,17 @@
 //! of its outline.
 
 use super::moments::{Moments, Sector, sectors};
+use super::numbers::{FINEST, FIRST_PARTS, Limits};
 use crate::linalg::number::larger;
 use crate::particle::error::ToleranceError;
-use crate::particle::mass_properties::{self, MassProperties, OF_SUMS};
+use crate::particle::mass_properties::{self, MassProperties};
+use crate::particle::numbers::OF_SUMS;
 use crate::particle::particle::Particle;
 use crate::particle::ray_cast;
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::{Matrix3, Vector2, Vector3};
 use std::collections::BinaryHeap;
 use std::f64::consts::TAU;
-
-/// Equal parts of the circle that an outline begins with.
-const PARTS: usize = 8;
-
-/// Most points of an outline.
-const MOST_POINTS: usize = 1_000_000;
-
-/// Distance of a polygon from the boundary, over the bounding radius, at its finest: some 70,000 points of a circle.
-const FINEST: f64 = 1e-9;
 
 impl Particle {
     /// Volume, centroid and inertia to a relative tolerance ([`MASS_TOLERANCE`](crate::MASS_TOLERANCE) = 1e-6 is
@@ -41,7 +34,7 @@ impl Particle {
 
 /// In closed form, from the arcs of the boundary; where rounding leaves more than the tolerance of that, by a polygon
 /// of points on rays, if it is surely better.
-fn of(shape: &Shape, tolerance: f64) -> MassProperties {
+fn of(shape: &Solid, tolerance: f64) -> MassProperties {
     let tolerance = larger(tolerance, FINEST);
     let mut arcs = Vec::new();
     let traced = sectors(shape, |sector| arcs.push(sector)).map(|()| properties(&arcs)).ok();
@@ -56,7 +49,7 @@ fn of(shape: &Shape, tolerance: f64) -> MassProperties {
 }
 
 /// Of the polygon of an outline; `share`: its tolerance over the bounding radius.
-fn polygon(shape: &Shape, share: f64) -> MassProperties {
+fn polygon(shape: &Solid, share: f64) -> MassProperties {
     let (points, deviation) = outline(shape, share * shape.bounds.radius);
     let chord = |(from, to): (&Vector2<f64>, &Vector2<f64>)| Sector {
         moments: Moments::triangle(from, to),
@@ -117,17 +110,17 @@ impl Chord {
 
 /// Points of the boundary in order, so that no chord between two of them is further than `tolerance` (length) from the
 /// boundary, or as many as there may be; and how far the farthest chord is. The farthest chords are divided first.
-pub(crate) fn outline(shape: &Shape, tolerance: f64) -> (Vec<Vector2<f64>>, f64) {
+pub(crate) fn outline(shape: &Solid, tolerance: f64) -> (Vec<Vector2<f64>>, f64) {
     let on_ray = |angle: f64| {
         let direction = Vector3::new(angle.cos(), angle.sin(), 0.0);
         // The origin is inside, so that every ray leaves the particle.
         (angle, ray_cast::distance(shape, &Vector3::zeros(), &direction).unwrap_or(f64::NAN) * direction.xy())
     };
-    let ends: Vec<_> = (0..=PARTS).map(|i| on_ray(TAU * i as f64 / PARTS as f64)).collect();
+    let ends: Vec<_> = (0..=FIRST_PARTS).map(|i| on_ray(TAU * i as f64 / FIRST_PARTS as f64)).collect();
     let mut left: BinaryHeap<Chord> = ends.windows(2).map(|ends| Chord::new([ends[0], ends[1]], &on_ray)).collect();
     let (mut done, mut deviation) = (Vec::new(), 0.0);
     while let Some(worst) = left.pop() {
-        if worst.deviation <= tolerance || left.len() + done.len() >= MOST_POINTS {
+        if worst.deviation <= tolerance || left.len() + done.len() >= Limits::POINTS as usize {
             deviation = larger(worst.deviation, deviation);
             done.push(worst);
             break;

@@ -1,12 +1,12 @@
 //! The plane of the section as one particle sees it.
 
-use crate::particle::shape::Shape;
+use crate::particle::solid::Solid;
 use nalgebra::{Matrix3, Vector3};
 
 /// A shape, the contact point and the axes of the section plane, all in the local frame of the particle.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PlaneSection<'a> {
-    pub shape: &'a Shape,
+    pub shape: &'a Solid,
     /// As given: contact point minus centre in world axes, and the rotation from local to world axes.
     pub branch: Vector3<f64>,
     pub rotation: Matrix3<f64>,

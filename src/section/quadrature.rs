@@ -3,31 +3,16 @@
 //! Around the contact point the intersection of the two convex cross-sections is star-shaped with radius
 //! ρ(φ) = min(ρ_A(φ), ρ_B(φ)), each by ray casting, and the area is ½∮ρ² dφ.
 
+use super::numbers::{FINEST, FIRST_SECTORS, Limits, SAFETY};
 use super::plane_section::PlaneSection;
 use crate::particle::ray_cast;
 use std::cell::Cell;
 use std::f64::consts::TAU;
 
-/// Equal sectors before refinement: no more than a quarter of a circle may hide between two rays.
-const SECTORS: usize = 12;
-
-/// Deepest halving of one sector.
-const DEEPEST: u32 = 24;
-
-/// Part of its share of the tolerance to which a sector's estimates must agree: the errors of several sectors may add
-/// up.
-const SAFETY: f64 = 0.125;
-
-/// Least relative tolerance: where this is needed, rounding leaves no more digits.
-const LEAST_TOLERANCE: f64 = 1e-9;
-
-/// Most rays: some seconds for some hundreds of planes.
-const MOST_RAYS: u32 = 1_000_000;
-
-/// Area by Simpson's rule, to a relative tolerance of at least [`LEAST_TOLERANCE`]. `None` when a ray is not finite, or
+/// Area by Simpson's rule, to a relative tolerance of at least [`FINEST`]. `None` when a ray is not finite, or
 /// the most rays do not do.
 pub(super) fn area(sections: &[PlaneSection; 2], relative_tolerance: f64) -> Option<f64> {
-    let left = Cell::new(MOST_RAYS);
+    let left = Cell::new(Limits::POINTS);
     let half_square = |angle: f64| {
         left.set(left.get().checked_sub(1)?);
         let (sin, cos) = angle.sin_cos();
@@ -38,19 +23,19 @@ pub(super) fn area(sections: &[PlaneSection; 2], relative_tolerance: f64) -> Opt
         let rho = rho.max(0.0);
         Some(0.5 * rho * rho)
     };
-    let step = TAU / SECTORS as f64;
-    let mut rays = [0.0; SECTORS];
+    let step = TAU / FIRST_SECTORS as f64;
+    let mut rays = [0.0; FIRST_SECTORS];
     for (i, ray) in rays.iter_mut().enumerate() {
         *ray = half_square(i as f64 * step)?;
     }
     let rough: f64 = rays.iter().sum::<f64>() * step;
-    let tolerance = SAFETY * relative_tolerance.max(LEAST_TOLERANCE) * rough / SECTORS as f64;
+    let tolerance = SAFETY * relative_tolerance.max(FINEST) * rough / FIRST_SECTORS as f64;
     let mut area = 0.0;
-    for i in 0..SECTORS {
+    for i in 0..FIRST_SECTORS {
         let from = i as f64 * step;
         let middle = half_square(from + 0.5 * step)?;
-        let sector = Sector { from, width: step, values: [rays[i], middle, rays[(i + 1) % SECTORS]] };
-        area += sector.integral(&half_square, tolerance, DEEPEST)?;
+        let sector = Sector { from, width: step, values: [rays[i], middle, rays[(i + 1) % FIRST_SECTORS]] };
+        area += sector.integral(&half_square, tolerance, Limits::HALVINGS)?;
     }
     Some(area)
 }

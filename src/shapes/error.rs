@@ -1,6 +1,6 @@
 //! Why input makes no shape.
 
-use super::rounding::MOST_ROUNDED;
+use super::numbers::Limits;
 use crate::particle::error::ParticleError;
 use crate::particle::plane::MAX_PLANES;
 use crate::rock::{EXTENTS, RockError};
@@ -52,7 +52,10 @@ pub enum ShapeError {
     )]
     Open,
     /// More faces than are rounded.
-    #[error("{0} faces are more than the {MOST_ROUNDED} that are rounded: take fewer, as fitted() or planes= do")]
+    #[error(
+        "{0} faces are more than the {most} that are rounded: take fewer, as fitted() or planes= do",
+        most = Limits::ROUNDED_PLANES
+    )]
     TooManyFaces(usize),
     /// The half-spaces enclose a body that is flat: all of it lies within 1e-6 of its extent of one of its faces, at
     /// which faces are one.

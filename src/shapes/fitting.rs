@@ -10,46 +10,13 @@
 //! is taken, and the whole is scaled to the volume that is given.
 
 use super::error::{ShapeError, within};
+use super::numbers::{DAMPING, ENOUGH, FIRST_SHARES, LEAST_WEIGHT, Limits, POWERS, SETTLED};
 use super::rounding::{Definition, Rounding, Shape, lowered, usual_tolerance};
 use super::sharp_body::SharpBody;
 use super::touching::{Height, Reached, reached};
 use crate::particle::plane::Plane;
 use nalgebra::{DMatrix, DVector, Vector3};
 use std::f64::consts::{PI, TAU};
-
-/// Of the size: the r to begin with; of more planes than turn only the middle one, for the time that they take.
-const SHARES: [f64; 3] = [0.05, 0.15, 0.45];
-
-/// Planes beyond which they do not turn: so many have the directions of the hull all around.
-const MOST_TURNED: usize = 100;
-
-/// Most planes.
-const MOST_PLANES: usize = 1_000;
-
-/// Directions along which the height of the hull is to be reached.
-const SAMPLES: usize = 800;
-
-/// Powers of what is missing whose sum is to be the least, one after the other, and what is added to its square, as a
-/// share of the mean, so that no sample is without weight.
-const POWERS: [i32; 2] = [2, 6];
-const LEAST_WEIGHT: f64 = 0.01;
-
-/// Steps for each power; they end with one that leaves more than this share of what is missing.
-const STEPS: usize = 40;
-const ENOUGH: f64 = 0.995;
-
-/// What is added to the diagonal of the normal equations at first, as a share of its mean.
-const DAMPING: f64 = 1e-3;
-
-/// Most rounds of Lloyd's method, and how near to each other normals of two rounds are in the end.
-const ROUNDS: usize = 15;
-const SETTLED: f64 = 1e-6;
-
-/// The square of the distance of normals that are one.
-const ONE_NORMAL: f64 = 1e-12;
-
-/// Points over the surface of a superquadric.
-const POINTS: usize = 2_000;
 
 /// Of the convex hull of points, as a particle of at most so many planes and with the volume of the hull. Without r in
 /// `rounding` ([`Rounding::chosen`]), it is chosen to that end.
@@ -74,7 +41,7 @@ pub fn superquadric(axes: [f64; 3], [n, e]: [f64; 2], planes: usize, rounding: &
     for (exponent, name) in [(n, "exponent n"), (e, "exponent e")] {
         within(exponent, (0.1..=2.0).contains(&exponent), name, "between 0.1 and 2")?;
     }
-    let scales = rays(POINTS).map(|ray| {
+    let scales = rays(Limits::SURFACE_POINTS).map(|ray| {
         let across = ray.x.abs().powf(2.0 / e) + ray.y.abs().powf(2.0 / e);
         (across.powf(e / n) + ray.z.abs().powf(2.0 / n)).powf(-0.5 * n) * ray
     });
@@ -107,7 +74,7 @@ pub fn of_hull(
     rounding: &Rounding,
     tolerance: Option<f64>,
 ) -> Result<Shape, ShapeError> {
-    within(planes as f64, (4..=MOST_PLANES).contains(&planes), "planes", "between 4 and 1000")?;
+    within(planes as f64, (4..=Limits::FITTED_PLANES).contains(&planes), "planes", "between 4 and 1000")?;
     within(volume, volume > 0.0, "volume", "finite and above 0")?;
     let about: Vec<Vector3<f64>> = hull.corners.iter().map(|corner| corner - hull.centroid).collect();
     let support = |normal: Vector3<f64>| Plane {
@@ -117,8 +84,9 @@ pub fn of_hull(
     let supports: Vec<Plane> = directions(hull, planes).into_iter().map(support).collect();
     let outer = SharpBody::of_planes(&supports)?;
     let outer = SharpBody { origin: hull.centroid + hull.origin, ..outer };
-    let samples =
-        rays(SAMPLES).chain(outer.planes.iter().map(|plane| plane.normal)).map(|ray| (ray, support(ray).offset));
+    let samples = rays(Limits::SAMPLES)
+        .chain(outer.planes.iter().map(|plane| plane.normal))
+        .map(|ray| (ray, support(ray).offset));
     let centre = outer.centroid;
     let samples: Vec<Height> = samples.map(|(ray, height)| (ray, height - ray.dot(&centre))).collect();
     let shape = nearest(&outer, &samples, rounding, tolerance)?;
@@ -137,8 +105,8 @@ fn nearest(
     let size = outer.size()?;
     let shares = match outer.planes.len() {
         _ if !rounding.is_chosen() => &[f64::NAN],
-        ..=MOST_TURNED => &SHARES[..],
-        _ => &SHARES[1..2],
+        ..=Limits::TURNED_PLANES => &FIRST_SHARES[..],
+        _ => &FIRST_SHARES[1..2],
     };
     let mut best: Option<Fit> = None;
     for share in shares {
@@ -182,7 +150,7 @@ impl Fit {
         for power in POWERS {
             let Some((mut here, mut left)) = looked(&definition, power) else { break };
             let mut damping = DAMPING;
-            for _ in 0..STEPS {
+            for _ in 0..Limits::FITTING_STEPS {
                 let tried = Step { samples, reached: &here, power, mean: left, is_free }.taken(&definition, damping);
                 match looked(&tried, power).filter(|(_, less)| *less < left) {
                     Some((there, less)) => {
@@ -222,7 +190,7 @@ impl Step<'_> {
         };
         let axes: Vec<_> = planes.iter().map(|plane| across(&plane.normal)).collect();
         // Columns: r, then of each plane its offset and, where it turns, two angles.
-        let each = if planes.len() > MOST_TURNED { 1 } else { 3 };
+        let each = if planes.len() > Limits::TURNED_PLANES { 1 } else { 3 };
         let count = 1 + each * planes.len();
         let (mut matrix, mut right) = (DMatrix::<f64>::zeros(count, count), DVector::<f64>::zeros(count));
         for (Reached { at, missing, weights }, (_, height)) in self.reached.iter().zip(self.samples) {
@@ -276,12 +244,12 @@ fn directions(hull: &SharpBody, count: usize) -> Vec<Vector3<f64>> {
             *distance = distance.min((normal - normals[normals.len() - 1]).norm_squared());
         }
         let worst = largest(&|i| facets[i].1 * distances[i]);
-        if normals.len() == count || distances[worst] < ONE_NORMAL {
+        if normals.len() == count || distances[worst] < SETTLED * SETTLED {
             break;
         }
         normals.push(facets[worst].0);
     }
-    for _ in 0..ROUNDS {
+    for _ in 0..Limits::LLOYD_ROUNDS {
         let mut sums = vec![Vector3::zeros(); normals.len()];
         for (normal, area) in &facets {
             let cosine = |i: usize| normal.dot(&normals[i]);

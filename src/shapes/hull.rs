@@ -6,12 +6,10 @@
 //! the edges around them take their place. Each point is kept with one triangle that it lies above.
 
 use super::error::{ShapeError, refuse_extent};
+use super::numbers::ZERO_COORDINATE;
 use crate::particle::coplanar;
 use nalgebra::Vector3;
 use robust::{Coord3D, orient3d};
-
-/// Coordinates below this share of the extent are 0: products of three of them are then normal numbers.
-const LEAST_SHARE: f64 = 1e-60;
 
 /// A triangle of the hull, corners counter-clockwise from outside.
 struct Triangle {
@@ -48,7 +46,7 @@ pub(super) fn triangles(points: &[Vector3<f64>]) -> Result<Vec<[u32; 3]>, ShapeE
     refuse_extent(extent)?;
     // By a power of two, which changes no digit.
     let scale = 2f64.powi(-(extent.log2().floor() as i32));
-    let share = |c: f64| if c.abs() > LEAST_SHARE { c } else { 0.0 };
+    let share = |c: f64| if c.abs() > ZERO_COORDINATE { c } else { 0.0 };
     let points: Vec<Vector3<f64>> = points.iter().map(|point| (point * scale).map(share)).collect();
     let mut hull = Hull::of_tetrahedron(&points).ok_or(flat)?;
     let mut open: Vec<u32> = (0..4).collect();

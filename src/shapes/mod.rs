@@ -8,6 +8,7 @@
 //!
 //! | file | holds |
 //! |---|---|
+//! | `numbers` | what shapes are tuned by |
 //! | `error` | why input makes no shape |
 //! | `hull` | the convex hull of points as triangles, exact |
 //! | `sharp_body` | a convex body of points or half-spaces: faces, corners, volume, centroid |
@@ -16,7 +17,7 @@
 //! | `touching` | planes that let a particle touch its faces where many share a rounding |
 //! | `rounding` | from a sharp body to a particle about its own centroid |
 //! | `solids` | the builders of bodies with flat faces |
-//! | `round` | cylinders, cones, ellipsoids and capsules |
+//! | `curved_solids` | cylinders, cones, ellipsoids and capsules |
 //! | `fitting` | few planes for points or surfaces of many |
 //!
 //! ```
@@ -32,20 +33,21 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod curved_solids;
 mod error;
 mod fitting;
 mod hull;
+mod numbers;
 mod principal_frame;
-mod round;
 mod rounding;
 mod sharp_body;
 mod solids;
 mod surface;
 mod touching;
 
+pub use curved_solids::{SIDES, capsule, cone, cylinder, ellipsoid};
 pub use error::ShapeError;
 pub use fitting::{fitted, superquadric};
-pub use round::{SIDES, capsule, cone, cylinder, ellipsoid};
 pub use rounding::{Rounding, Shape};
 pub use solids::{cuboid, frustum, half_spaces, hull, known_hull, prism, regular_solid, sphere, surface};
 #[doc(hidden)]

@@ -1,10 +1,7 @@
 //! Principal axes of inertia, as near to the axes of the given frame as they can be.
 
+use super::numbers::EQUAL_MOMENTS;
 use nalgebra::{Matrix2, Matrix3, Rotation3, UnitQuaternion, Vector3};
-
-/// Moments that differ by less than this share belong to one axis of symmetry, about which any axis is principal: some
-/// times the error to which they are known.
-const EQUAL: f64 = 2e-5;
 
 /// Rotation whose columns are principal axes, column i the one nearest to axis i of the frame. Where moments are equal,
 /// and any axes of a plane or of space are principal, those nearest to the frame's own are taken: a cube or a sphere
@@ -14,7 +11,7 @@ fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
     let mut order = [0, 1, 2];
     order.sort_by(|&i, &j| eigen.eigenvalues[i].total_cmp(&eigen.eigenvalues[j]));
     let moment = |i: usize| eigen.eigenvalues[order[i]];
-    let is_equal = |i: usize| moment(i + 1) - moment(i) <= EQUAL * moment(2);
+    let is_equal = |i: usize| moment(i + 1) - moment(i) <= EQUAL_MOMENTS * moment(2);
     let vector = |i: usize| eigen.eigenvectors.column(order[i]).into_owned();
     let rotation = match [is_equal(0), is_equal(1)] {
         [true, true] => Matrix3::identity(),
@@ -27,7 +24,7 @@ fn axes(inertia: &Matrix3<f64>) -> Matrix3<f64> {
         rotation.column_mut(turned).neg_mut();
     }
     // Axes that are those of the frame up to the error of the moments are those of the frame.
-    if (rotation - Matrix3::identity()).amax() < EQUAL { Matrix3::identity() } else { rotation }
+    if (rotation - Matrix3::identity()).amax() < EQUAL_MOMENTS { Matrix3::identity() } else { rotation }
 }
 
 /// The same, and the quaternion (w, x, y, z), w ≥ 0, from them to the frame.

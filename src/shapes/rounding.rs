@@ -13,6 +13,7 @@
 //! repetition.
 
 use super::error::{ShapeError, positive, within};
+use super::numbers::{CENTRED, FEW_PLANES, FEWER_DIGITS, Limits};
 use super::principal_frame::principal_orientation;
 use super::sharp_body::SharpBody;
 use super::touching::Touching;
@@ -22,20 +23,6 @@ use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
 use crate::pose::Pose;
 use nalgebra::{Matrix3, Vector3};
-
-/// The repetition ends when the centre is the centroid to this share of the size, with fewer digits, which takes far
-/// less time. For bodies too flat or long for these digits, it ends when the centre comes no nearer and is the centroid
-/// to their precision. A last step with all digits follows; it changes the shape only by the product of this share and
-/// k.
-const CENTRED: f64 = 1e-5;
-const ROUGHLY: f64 = 1e-4;
-
-/// Planes beyond which mass properties are found to `FEWER_DIGITS`: the time goes with their number.
-const FEW_PLANES: usize = 30;
-const FEWER_DIGITS: f64 = 1e-4;
-
-/// Most planes that are rounded: beyond, it takes more than some seconds.
-pub(super) const MOST_ROUNDED: usize = 4_096;
 
 /// The tolerance to which the mass properties of a shape are found, relative.
 pub(super) fn usual_tolerance(planes: usize) -> f64 {
@@ -177,7 +164,7 @@ impl Shape {
     pub fn of_body(body: &SharpBody, rounding: &Rounding, tolerance: Option<f64>) -> Result<Self, ShapeError> {
         let size = body.size()?;
         let (r, k, shadow_radius) = rounding.lengths(size)?;
-        if body.planes.len() > MOST_ROUNDED {
+        if body.planes.len() > Limits::ROUNDED_PLANES {
             return Err(ShapeError::TooManyFaces(body.planes.len()));
         }
         let tolerance = tolerance.unwrap_or_else(|| usual_tolerance(body.planes.len()));
@@ -212,7 +199,7 @@ impl Shape {
         size: f64,
         tolerance: f64,
     ) -> Result<Self, ShapeError> {
-        let (roughly, near) = (ROUGHLY.max(10.0 * tolerance), CENTRED.max(0.1 * tolerance) * size);
+        let (roughly, near) = (FEWER_DIGITS.max(10.0 * tolerance), CENTRED.max(0.1 * tolerance) * size);
         let mut found = None;
         let mut last = f64::INFINITY;
         for _ in 0..MOST_STEPS {

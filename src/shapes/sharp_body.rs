@@ -2,6 +2,7 @@
 
 use super::error::{ShapeError, within};
 use super::hull;
+use super::numbers::OF_SUMS;
 use crate::particle::coplanar::{self, Distinct, Face};
 use crate::particle::error::ParticleError;
 use crate::particle::largest_ball;
@@ -10,10 +11,6 @@ use crate::particle::polyhedron::OF_CUBE;
 use crate::particle::volume::{self, Enclosed};
 use crate::rock::{EXTENTS, enclosed, unit_planes};
 use nalgebra::{Matrix3, Vector3};
-
-/// A centroid nearer to the origin than this share of the farthest corner's distance is set to it: sums over the faces
-/// are rounded by a few units.
-const OF_SUMS: f64 = 16.0 * f64::EPSILON;
 
 /// Planes, corners and centroid are about `origin`, so that their digits do not depend on how far away the body is.
 pub struct SharpBody {

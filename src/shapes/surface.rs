@@ -1,14 +1,13 @@
 //! Whether triangles are the whole surface of the convex hull of their points.
 
 use super::error::ShapeError;
+use super::numbers::COVERED;
 use super::sharp_body::{HullOfPoints, SharpBody, about_middle};
-use crate::particle::coplanar::{self, COPLANAR};
+use crate::particle::coplanar;
+use crate::particle::numbers::COPLANAR;
 use crate::particle::plane::Plane;
 use nalgebra::Vector3;
 use std::collections::HashMap;
-
-/// How far the area of the triangles may be from that of the hull, as a share.
-const COVERED: f64 = 1e-3;
 
 impl SharpBody {
     /// The hull of a closed convex surface of triangles, three numbers of points each, in any sense of rotation.

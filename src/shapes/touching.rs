@@ -12,18 +12,11 @@
 //! No plane moves beyond its face. A face that rounding swallows, as a narrow one at an edge, stays out of reach, and
 //! then counts no longer.
 
+use super::numbers::{Limits, TOUCHED, UNTOUCHED};
 use crate::particle::particle::Particle;
 use crate::particle::plane::Plane;
 use crate::particle::support;
 use nalgebra::Vector3;
-
-/// Of the depth of planes below their faces: at which a face is touched, and least distance that is made up for.
-const TOUCHED: f64 = 1e-5;
-const UNTOUCHED: f64 = 1e-7;
-
-/// Most rounds, and most rows times rounds for all places of the centre together.
-const MOST_ROUNDS: usize = 60;
-const MOST_WORK: usize = 20_000;
 
 /// A direction of unit length, and a height along it.
 pub(super) type Height = (Vector3<f64>, f64);
@@ -59,7 +52,7 @@ impl Touching {
         }
         let depth = faces.iter().zip(&planes).map(|(face, plane)| face.1 - plane.offset).fold(0.0, f64::max);
         let mut beyond = 0.0;
-        for round in 0..MOST_ROUNDS {
+        for round in 0..Limits::STEPS {
             let now = self.applied(&planes);
             let Some(particle) = make(&now).filter(|made| made.plane_count() == planes.len()) else { return planes };
             let is_unmoved = round == 0 && self.moved.iter().all(|moved| *moved == 0.0);
@@ -80,7 +73,7 @@ impl Touching {
             }
             beyond = missing.iter().map(|missing| -missing).fold(0.0, f64::max);
             self.work += faces.len();
-            if worst <= TOUCHED * depth || self.work > MOST_WORK || round + 1 == MOST_ROUNDS {
+            if worst <= TOUCHED * depth || self.work > Limits::TOUCHING_WORK || round + 1 == Limits::STEPS {
                 break;
             }
             let changes = changes(&reached, &missing);

@@ -1,6 +1,6 @@
 //! One call: the pair being solved, the order in which solvers are tried, and what it has cost so far.
 
-use crate::bounds::judged::judged;
+use crate::bounds::external_solution::external_solution;
 use crate::bounds::point_bound::point_bound;
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::{Ending, Solution};
@@ -208,7 +208,7 @@ impl<'a> Call<'a> {
         // A weight rounded to 1 stands for a λ of 2/ε or more.
         let weight = found.weight.min(1.0 - 0.5 * f64::EPSILON);
         let lambda = weight / (1.0 - weight);
-        let solution = judged(&found.x, lambda, found.s, self.bodies(), problem);
+        let solution = external_solution(&found.x, lambda, found.s, self.bodies(), problem);
         *model = self.model(&Start { x: solution.x, lambda }, problem);
         Ok(solution)
     }

@@ -8,6 +8,7 @@ use crate::bounds::point_bound::point_bound;
 use crate::bounds::scale::Scale;
 use crate::bounds::solution::Solution;
 use crate::flags::Flags;
+use crate::linalg::number::gamma;
 use crate::model::dual_search;
 use crate::model::local_model::{self, LocalModel};
 use crate::model::problem::Problem;
@@ -155,7 +156,7 @@ fn is_aslant([p1, p2]: &[CertifiedPoint; 2]) -> bool {
 const ALONG: f64 = 1e-6;
 
 /// Rounding of a gradient, relative.
-const OF_GRADIENT: f64 = 32.0 * f64::EPSILON;
+const OF_GRADIENT: f64 = gamma(64);
 
 /// Whether P1 − P2 has a part along the level surfaces on which gradients change by the regularisation only.
 fn is_free(bodies: [&Body; 2], [p1, p2]: &[CertifiedPoint; 2]) -> bool {

@@ -15,18 +15,17 @@
 //! closed form. Forces balance at excesses √w·(n_i·x − d_i) = τ c_i/α on A and τ c_i/β on B, where α² and β² are the
 //! sums of c_i² over the planes of A and of B; both S are τ², τ = F/(α + β), and the ratio of weights is λ = β/α.
 //!
-//! However found, these planes may prove the pair separated ([`Hull::proof`]).
+//! However found, these planes may prove the pair separated ([`MinimumNorm::proof`]).
 
 use crate::linalg::number::larger;
 use crate::model::local_model::Start;
 use crate::pair::body::Body;
-use crate::pair::hull::{Face, Hull};
+use crate::pair::minimum_norm_point::{Face, MinimumNorm};
 use crate::pair::pair::Pair;
 use crate::pair::separation::Apart;
 use nalgebra::Vector3;
 
 /// Most planes that take over, one after the other, and most trials for each. A start need not be perfect.
-const MOST_PLANES: usize = 24;
 const MOST_TRIALS: usize = 24;
 
 /// Most planes of a body that are all followed from one step to the next: in larger bodies it is faster to leave
@@ -47,7 +46,8 @@ const SLOW: f64 = 1e-6;
 /// Square of the shortest vector of the hull, relative to the longest, that counts as 0: the planes balance.
 const VANISHING: f64 = 1e-20;
 
-/// A start, with the proof that the bodies are apart if it was found on the way, and its planes ([`Hull::places`]).
+/// A start, with the proof that the bodies are apart if it was found on the way, and its planes
+/// ([`MinimumNorm::places`]).
 pub(crate) type Guess = (Start, Option<(Apart, [f64; 2])>);
 
 /// A start without memory; on a boundary, its point nearest to the centre.
@@ -92,15 +92,15 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Guess> {
         // Inside both polyhedra, the line of centres is as good.
         return None;
     }
-    let mut hull = Hull::of(envelope.face(first));
-    for _ in 0..MOST_PLANES {
-        let y = hull.shortest();
+    let mut balance = MinimumNorm::of(envelope.face(first));
+    for _ in 0..MOST_TRIALS {
+        let y = balance.shortest();
         let rate = y.norm_squared();
-        if hull.count == 4 || rate <= VANISHING * hull.longest {
-            let (start, tau) = balanced(&hull, &x, level)?;
+        if balance.count == 4 || rate <= VANISHING * balance.longest {
+            let (start, tau) = balanced(&balance, &x, level)?;
             // Otherwise the same planes prove nothing.
-            let proof = if tau > 1.0 { proof(bodies, &hull, &x, envelope.roots) } else { None };
-            return Some((start, proof.map(|apart| (apart, hull.places()))));
+            let proof = if tau > 1.0 { proof(bodies, &balance, &x, envelope.roots) } else { None };
+            return Some((start, proof.map(|apart| (apart, balance.places()))));
         }
         let (way, next) = envelope.next(&x, &y, level, rate);
         x -= way * y;
@@ -109,17 +109,17 @@ fn between_polyhedra(bodies: [&Body; 2], from: Vector3<f64>) -> Option<Guess> {
             return Some((Start { x, lambda: 1.0 }, None));
         };
         level -= way * rate;
-        hull.join(envelope.face(plane))?;
+        balance.join(envelope.face(plane))?;
     }
     None
 }
 
 /// What the planes in force prove at x.
 #[inline(never)]
-fn proof(bodies: [&Body; 2], hull: &Hull, x: &Vector3<f64>, roots: [f64; 2]) -> Option<Apart> {
+fn proof(bodies: [&Body; 2], balance: &MinimumNorm, x: &Vector3<f64>, roots: [f64; 2]) -> Option<Apart> {
     let local = bodies.map(|body| body.local(x));
     let excess = |face: &Face| bodies[face.of].particle.excess(face.place, &local[face.of]);
-    hull.proof(bodies.map(|body| body.particle), roots, bodies.map(|body| (x - body.centre()).norm()), excess)
+    balance.proof(bodies.map(|body| body.particle), roots, bodies.map(|body| (x - body.centre()).norm()), excess)
 }
 
 /// F.
@@ -246,19 +246,19 @@ impl<'a> Envelope<'a> {
 
 /// The minimiser of max(S_A, S_B) from that of F, and its λ. `None` if all planes are of one particle: they give its
 /// centre, no contact.
-fn balanced(hull: &Hull, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
+fn balanced(balance: &MinimumNorm, x: &Vector3<f64>, level: f64) -> Option<(Start, f64)> {
     let mut squares = [0.0; 2];
-    (0..hull.count).for_each(|i| squares[hull.faces[i].of] += hull.shares[i] * hull.shares[i]);
+    (0..balance.count).for_each(|i| squares[balance.faces[i].of] += balance.shares[i] * balance.shares[i]);
     let [alpha, beta] = squares.map(f64::sqrt);
     if !(alpha > 0.0 && beta > 0.0) {
         return None;
     }
     let tau = level / (alpha + beta);
     let per_share = [tau / alpha, tau / beta];
-    let excess = |i: usize| per_share[hull.faces[i].of] * hull.shares[i];
-    let last = hull.count - 1;
+    let excess = |i: usize| per_share[balance.faces[i].of] * balance.shares[i];
+    let last = balance.count - 1;
     let to_last = excess(last);
-    let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * hull.reciprocal[i]);
+    let step = (0..last).fold(Vector3::zeros(), |sum, i| sum + (excess(i) - to_last) * balance.reciprocal[i]);
     let (x, lambda) = (x + step, beta / alpha);
     lambda.is_finite().then_some((Start { x, lambda }, tau))
 }

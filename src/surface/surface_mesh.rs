@@ -6,6 +6,7 @@
 //! polyhedron that is an edge or a corner, which a sharp particle so gets after a few points. A point splits one
 //! triangle, then flips of diagonals make the mesh convex again; neither can open it.
 
+use super::numbers::{FEW_VERTICES, FINEST, FINEST_IN_PLANE, Limits, NEAR_EDGE, ROUNDED, VERTICES_BY_TOLERANCE};
 use super::tangent_bound::{Rise, SurfacePoint, rise};
 use super::triangulation::Triangulation;
 use crate::linalg::number::direction;
@@ -44,28 +45,6 @@ pub enum MeshError {
     #[error("a ray from the centre finds no surface: scale the particle to a size near 1")]
     NoSurface,
 }
-
-/// Least tolerance: a sphere has about a million triangles then.
-const FINEST: f64 = 1e-5;
-
-/// The same in the plane: a circle has some 70,000 corners then.
-const FINEST_IN_PLANE: f64 = 1e-9;
-
-/// Most vertices times the tolerance, and besides: ten times those of a sphere, which needs more than other bodies of
-/// its radius. Only rounding needs more, as with normals of very different lengths; the error of the mesh then shows
-/// it.
-const MOST_VERTICES: f64 = 50.0;
-const FEW_VERTICES: f64 = 1_000.0;
-
-/// Most flips of diagonals after one change, for each triangle: more are a circle that rounding leads in.
-const MOST_FLIPS: usize = 4;
-
-/// Part of the way from an edge to the opposite corner below which a point is put on the edge: no sliver is needed
-/// there.
-const NEAR_EDGE: f64 = 1e-3;
-
-/// Distance, over the radius, within which two points count as one, and below which a diagonal counts as flat.
-const COINCIDENT: f64 = 1e-12;
 
 impl SurfaceMesh {
     /// The mesh whose distance to the surface is at most `tolerance` times the bounding radius. In the plane: vertices
@@ -151,7 +130,7 @@ impl<'a> Refinement<'a> {
     }
 
     fn run(&mut self) {
-        let most = (FEW_VERTICES + MOST_VERTICES / self.tolerance) as usize;
+        let most = (FEW_VERTICES + VERTICES_BY_TOLERANCE / self.tolerance) as usize;
         while let Some(Candidate { triangle, corners, rise }) = self.candidates.pop() {
             // Triangles change after they were considered; then they have been considered again.
             if self.points.len() >= most {
@@ -211,7 +190,7 @@ impl<'a> Refinement<'a> {
         };
         let below = |j: usize| if edge == Some(j) { Vector3::zeros() } else { place[j] * self.position(corners[j]) };
         let Some(point) = self.surface_point(&(below(0) + below(1) + below(2))) else { return };
-        if corners.iter().any(|&corner| (self.position(corner) - point.position).norm() <= COINCIDENT) {
+        if corners.iter().any(|&corner| (self.position(corner) - point.position).norm() <= ROUNDED) {
             return;
         }
         let new = self.points.len() as u32;
@@ -240,7 +219,7 @@ impl<'a> Refinement<'a> {
     /// returns the triangles that were changed.
     fn make_convex(&mut self, mut edges: Vec<(u32, usize)>) -> Vec<u32> {
         let mut changed = Vec::new();
-        let most = MOST_FLIPS * self.mesh.len() as usize;
+        let most = Limits::FLIPS * self.mesh.len() as usize;
         while let Some((t, i)) = edges.pop() {
             if changed.len() < 2 * most && self.bends_inwards(t, i) {
                 for part in self.mesh.flip(t, i) {
@@ -262,8 +241,8 @@ impl<'a> Refinement<'a> {
         let d = self.position(opposite);
         let (normal, arm) = ((b - a).cross(&(c - a)), d - a);
         let faces_out = |p: &Vector3<f64>, q: &Vector3<f64>, r: &Vector3<f64>| {
-            p.dot(&q.cross(r)) > COINCIDENT * (q - p).norm() * (r - p).norm() * p.norm()
+            p.dot(&q.cross(r)) > ROUNDED * (q - p).norm() * (r - p).norm() * p.norm()
         };
-        normal.dot(&arm) > COINCIDENT * normal.norm() && faces_out(a, b, d) && faces_out(a, d, c)
+        normal.dot(&arm) > ROUNDED * normal.norm() && faces_out(a, b, d) && faces_out(a, d, c)
     }
 }

@@ -1,5 +1,6 @@
 //! How far a convex surface can rise above a triangle whose corners lie on it.
 
+use super::numbers::ROUNDED;
 use nalgebra::{Matrix3, Vector3};
 
 /// A point of the surface with its outward unit normal.
@@ -19,9 +20,6 @@ pub(super) struct Rise {
     pub place: [f64; 3],
 }
 
-/// Part by which a basic solution may violate its other constraints: more than the rounding of their products.
-const ROUNDING: f64 = 1e-12;
-
 /// Bound on the distance from any point of the surface to a triangle, within the cone of the triangle from the origin.
 ///
 /// A point of the cone is Σ w_j x_j with w ≥ 0, and the body lies below its tangent plane at each corner: Σ_j a_ij w_j
@@ -37,9 +35,9 @@ pub(super) fn rise(corners: &[SurfacePoint; 3]) -> Rise {
     let mut highest = Rise { bound: 0.0, place: [1.0 / 3.0; 3] };
     let mut bounded = false;
     for Basic { rows, columns, y, w } in basic_solutions(&a) {
-        let dual = |j: usize| columns[j] || a.column(j).dot(&y) >= 1.0 - ROUNDING;
+        let dual = |j: usize| columns[j] || a.column(j).dot(&y) >= 1.0 - ROUNDED;
         bounded |= y.min() >= 0.0 && (0..3).all(dual);
-        let primal = |i: usize| rows[i] || (a.row(i) * w).x <= 1.0 + ROUNDING;
+        let primal = |i: usize| rows[i] || (a.row(i) * w).x <= 1.0 + ROUNDED;
         // Every vertex but the origin lies above the triangle; others come from rounding. Also false for NaN.
         if w.min() >= 0.0 && w.sum() > 1.0 && (0..3).all(primal) {
             let bound = distance(&(w.x * triangle[0] + w.y * triangle[1] + w.z * triangle[2]), &triangle);

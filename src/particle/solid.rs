@@ -10,6 +10,7 @@
 //! f = 0 is the surface, f < 0 the inside. Normals are used as given and never renormalised, so that the particle is
 //! exactly the one that the caller defined.
 
+use super::numbers::{SIZES, SQUARABLE};
 use crate::linalg::symmetric::Symmetric;
 use crate::particle::bounding_volumes::{self, Bounds, Extent};
 use crate::particle::coplanar;
@@ -19,20 +20,11 @@ use crate::particle::plane::{MAX_PLANES, Plane};
 use crate::particle::plane_clusters::PlaneClusters;
 use crate::particle::potential::Weights;
 use nalgebra::Vector3;
-use std::ops::{Range, RangeInclusive};
-
-/// Most bounding radii in units of r/√(1−k). A plane that bounds the particle along a ray rises by at least the inverse
-/// of this along the ray; depth times rise and the square of the rise, at the surface, are then no smaller than 1e-304
-/// and 1e-300, normal numbers.
-const MOST_RADII: f64 = 1e150;
-
-/// The bounding radius lies in this range: moments of inertia go with the fifth power of lengths, and the products and
-/// squares that are taken of them and of the wrench of a patch are normal numbers then.
-const SIZES: RangeInclusive<f64> = 1e-30..=1e30;
+use std::ops::Range;
 
 /// A validated definition with its bounding volumes.
 #[derive(Clone, Debug)]
-pub struct Shape {
+pub struct Solid {
     /// (a, b, c, d) of each plane in the order of `clusters`, which evaluation reads one after the other.
     pub(super) rows: Box<[[f64; 4]]>,
     /// Number of coordinates in which a point of it may move: 3, or 2 where only the cut at z = 0 is meant
@@ -57,7 +49,7 @@ pub struct Shape {
     order: Box<[usize]>,
 }
 
-impl Shape {
+impl Solid {
     /// The weights of S.
     #[inline(always)]
     pub(crate) fn weights(&self) -> Weights {
@@ -87,7 +79,7 @@ impl Shape {
         }
         let extent = Extent::new(plane_weight, sphere_weight, at_origin, dimensions);
         let bounds = Bounds::of(&rows, &extent).ok_or(ParticleError::Unbounded)?;
-        if !rows.is_empty() && plane_weight.sqrt() * bounds.radius > MOST_RADII {
+        if !rows.is_empty() && plane_weight.sqrt() * bounds.radius > SQUARABLE {
             return Err(ParticleError::RoundingTooSmall { r, radius: bounds.radius });
         }
         if !SIZES.contains(&bounds.radius) {

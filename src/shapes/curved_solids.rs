@@ -5,6 +5,7 @@
 //! semi-axis, the form of an ellipsoid.
 
 use super::error::{ShapeError, positive};
+use super::numbers::{CIRCLE_SIDES, LOST, Limits};
 use super::rounding::{Rounding, Shape};
 use super::solids::{frustum, prism};
 use crate::particle::mass_properties::MassProperties;
@@ -15,17 +16,6 @@ use std::f64::consts::{PI, TAU};
 
 /// Sides of a cylinder or cone that nobody has chosen, and planes of a superquadric.
 pub const SIDES: usize = 48;
-
-/// How much of its radius and height a cone loses at most where r is chosen, as a share.
-const LOST: f64 = 1e-3;
-
-/// Rays over half of a side that measure a section, and steps towards its place: the area is good to more digits than
-/// the shape needs.
-const RAYS: usize = 17;
-const STEPS: usize = 60;
-
-/// Sides beyond which a polygon is a circle to 3e-6.
-const MANY_SIDES: usize = 1_000;
 
 /// An ellipsoid about the origin with these semi-axes along x, y, z, length: exact, of 6 planes through its centre.
 ///
@@ -114,7 +104,7 @@ fn of_equal_area(sides: usize) -> f64 {
 
 /// How far the sides of a regular polygon reach from its centre, rounded by r, so that its area is π.
 fn side_height(sides: usize, r: f64) -> f64 {
-    if sides > MANY_SIDES {
+    if sides > CIRCLE_SIDES {
         return 1.0;
     }
     let step = TAU / sides as f64;
@@ -123,7 +113,7 @@ fn side_height(sides: usize, r: f64) -> f64 {
     let reach = |angle: f64, d: f64| {
         let cosines: Vec<f64> = normals.iter().map(|normal| (angle - normal).cos()).filter(|c| *c > 0.0).collect();
         let mut reach = 4.0;
-        for _ in 0..STEPS {
+        for _ in 0..Limits::STEPS {
             let beyond = cosines.iter().map(|cosine| (cosine, (reach * cosine - d).max(0.0)));
             let (sum, slope) = beyond.fold((-r * r, 0.0), |(s, t), (c, e)| (s + e * e, t + 2.0 * c * e));
             let change = sum / slope;
@@ -135,13 +125,13 @@ fn side_height(sides: usize, r: f64) -> f64 {
         reach
     };
     let area = |d: f64| {
-        let at = |i: usize| reach(0.5 * step * i as f64 / (RAYS - 1) as f64, d).powi(2);
+        let at = |i: usize| reach(0.5 * step * i as f64 / (Limits::SECTION_RAYS - 1) as f64, d).powi(2);
         // Simpson's rule.
-        let weight = |i: usize| if i == 0 || i == RAYS - 1 { 1.0 } else { [2.0, 4.0][i % 2] };
-        (0..RAYS).map(|i| weight(i) * at(i)).sum::<f64>() / (3 * (RAYS - 1)) as f64
+        let weight = |i: usize| if i == 0 || i == Limits::SECTION_RAYS - 1 { 1.0 } else { [2.0, 4.0][i % 2] };
+        (0..Limits::SECTION_RAYS).map(|i| weight(i) * at(i)).sum::<f64>() / (3 * (Limits::SECTION_RAYS - 1)) as f64
     };
     let (mut low, mut high) = (-1.0, 1.0);
-    for _ in 0..STEPS {
+    for _ in 0..Limits::STEPS {
         let middle = 0.5 * (low + high);
         if area(middle) < 1.0 { low = middle } else { high = middle }
     }

@@ -1,4 +1,5 @@
-//! Planes of two particles in balance: the shortest vector in the convex hull of their gradients, and what that proves.
+//! Planes of two particles in balance: the point of least norm in the convex hull of their gradients (Wolfe 1976), and
+//! what that proves.
 //!
 //! Let g_i = ρ n_i be the gradients of planes of both particles, with a factor ρ for each particle, and c_i ≥ 0 shares.
 //! In a particle Σ c_i ρ (n_i·x − d_i), over any of its planes, is at most ρ·r/√(1−k) times the root of the sum of
@@ -9,7 +10,8 @@
 
 use crate::flags::Flags;
 use crate::linalg::number::{larger, smaller};
-use crate::pair::separation::{Apart, MARGIN};
+use crate::pair::separation::Apart;
+use crate::particle::numbers::MARGIN;
 use crate::particle::particle::{MAX_PLANES, Particle};
 use crate::pose::Pose;
 use nalgebra::Vector3;
@@ -26,7 +28,7 @@ pub(crate) struct Face {
 
 /// Planes that balance each other as far as they can: y = Σ c_i g_i is the shortest vector of their convex hull.
 #[derive(Clone, Copy)]
-pub(crate) struct Hull {
+pub(crate) struct MinimumNorm {
     pub faces: [Face; 4],
     /// c_i > 0, Σ c_i = 1.
     pub shares: [f64; 4],
@@ -37,7 +39,7 @@ pub(crate) struct Hull {
     pub reciprocal: [Vector3<f64>; 3],
 }
 
-impl Hull {
+impl MinimumNorm {
     pub fn of(face: Face) -> Self {
         let longest = face.gradient.norm_squared();
         let reciprocal = [Vector3::zeros(); 3];
@@ -178,8 +180,8 @@ impl Hull {
 const NO_PLANE: usize = 2 * MAX_PLANES;
 const SECOND: usize = 4 * MAX_PLANES;
 
-/// Body (0, 1) and place of the planes of [`Hull::places`], and how many of them the particles have; any numbers are
-/// allowed.
+/// Body (0, 1) and place of the planes of [`MinimumNorm::places`], and how many of them the particles have; any numbers
+/// are allowed.
 #[inline(always)]
 fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize, usize); 4], usize) {
     // What is negative or not a number becomes 0.
@@ -195,8 +197,8 @@ fn planes_at(particles: [&Particle; 2], [first, second]: &[f64; 2]) -> ([(usize,
     (planes, count)
 }
 
-/// What planes that were in balance ([`Hull::places`]) prove at these poses, whichever they are; x is any point between
-/// the particles, local frame of B.
+/// What planes that were in balance ([`MinimumNorm::places`]) prove at these poses, whichever they are; x is any point
+/// between the particles, local frame of B.
 #[inline(always)]
 pub(crate) fn still_balanced(
     (a, pose_a): (&Particle, &Pose),
@@ -218,7 +220,7 @@ pub(crate) fn still_balanced(
         Face { gradient: poses[of].rotation() * particles[of].normal(place), of, place }
     };
     let excess = |&Face { gradient, of, place }: &Face| gradient.dot(&from[of]) - particles[of].offset(place);
-    let hull = Hull::again([face(0), face(1), face(2), face(3)], count);
+    let hull = MinimumNorm::again([face(0), face(1), face(2), face(3)], count);
     let apart = hull.proof(particles, [1.0; 2], from.map(|from| from.norm()), excess);
     apart.map(|apart| Apart { by: Flags::BY_MEMORY, ..apart })
 }
@@ -240,7 +242,7 @@ mod tests {
                 let gradient = Vector3::new(0.4, 0.0, 0.0) + Vector3::<f64>::from_fn(|_, _| chance());
                 Face { gradient, of: 0, place: 0 }
             };
-            let mut hull = Hull::of(face());
+            let mut hull = MinimumNorm::of(face());
             for _ in 0..10 {
                 let (next, last) = (face(), hull.shortest());
                 // Others do not take over.

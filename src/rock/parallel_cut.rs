@@ -5,19 +5,11 @@
 //! stays in its cache and is not kept. The pieces come in the same order whichever rounds there are: those of a part in
 //! its place, what lies below a joint before what lies beyond.
 
+use super::numbers::{CHUNKS, Limits};
 use crate::contact::batch::in_parallel;
 use crate::rock::cutting::{Cuts, LeftOut, Part, Workbench};
 use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
-
-/// Chunks of parts for each thread: so many that none waits long for the last one.
-const CHUNKS: usize = 16;
-
-/// Most parts of a chunk.
-const LONGEST_CHUNK: usize = 256;
-
-/// Pieces that a thread makes before it reports them.
-const TOLD: usize = 256;
 
 /// What was made of some parts that follow each other.
 pub(super) struct Chunk<T> {
@@ -60,7 +52,7 @@ pub(super) fn cut<T: Send>(
     most: usize,
     finish: impl Fn(usize, &Part, &mut Workbench, &mut Vec<T>) + Sync,
 ) -> Result<Round<T>, TooMany> {
-    let length = parts.len().div_ceil(CHUNKS * threads.max(1)).clamp(1, LONGEST_CHUNK);
+    let length = parts.len().div_ceil(CHUNKS * threads.max(1)).clamp(1, Limits::CHUNK);
     let mut chunks: Vec<Option<Chunk<T>>> = parts.chunks(length).map(|_| None).collect();
     let count = AtomicUsize::new(parts.len());
     let work = parts.chunks(length).zip(&mut chunks);
@@ -110,7 +102,9 @@ fn chunk<T>(
             }
             finish(made.pieces, &piece.part, &mut bench, &mut made.results);
             made.pieces += 1;
-            if untold >= TOLD && count.fetch_add(untold, Ordering::Relaxed) + std::mem::take(&mut untold) > most {
+            if untold >= Limits::CHUNK
+                && count.fetch_add(untold, Ordering::Relaxed) + std::mem::take(&mut untold) > most
+            {
                 return made;
             }
             if waiting == 0 {

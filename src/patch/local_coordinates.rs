@@ -6,6 +6,7 @@
 //! the unit vectors, without a root to be found.
 
 use super::field::{Field, FramePlane, Owner};
+use super::numbers::STEEPEST_GRAPH;
 use super::ray::Node;
 use nalgebra::Vector3;
 
@@ -16,8 +17,8 @@ pub(super) type Place = (Vector, Vector, f64);
 
 /// Planes as coordinates.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Chart {
-    /// Where all three coordinates are 0.
+pub(super) struct LocalCoordinates {
+    /// The point at which all three coordinates are 0.
     pub origin: Vector,
     /// How the place changes with each of them.
     pub arms: [Vector; 3],
@@ -53,7 +54,7 @@ pub(super) fn normal(plane: &FramePlane) -> Vector {
     Vector::from(plane.normal)
 }
 
-impl Chart {
+impl LocalCoordinates {
     /// The excesses of three planes. `None` where they meet in no point.
     pub fn corner(planes: [&FramePlane; 3], last: &Flat) -> Option<Self> {
         let [n, m, o] = planes.map(normal);
@@ -117,7 +118,7 @@ impl Wave {
         Self { a, b, size: (a * a + b * b).sqrt() }
     }
 
-    /// Where it is largest.
+    /// The angle at which the wave is largest.
     #[inline(always)]
     pub fn peak(&self) -> f64 {
         self.b / (self.size + self.a)
@@ -151,8 +152,5 @@ pub(super) fn node(x: Vector, area: Vector, s: f64, weight: f64) -> Option<Node>
         pressure: (1.0 - s).max(0.0),
         normal: [area.x * inverse, area.y * inverse],
     };
-    (node.normal[0].abs() + node.normal[1].abs() < STEEPEST && node.weight < f64::INFINITY).then_some(node)
+    (node.normal[0].abs() + node.normal[1].abs() < STEEPEST_GRAPH && node.weight < f64::INFINITY).then_some(node)
 }
-
-/// Beyond this slope the patch is not a graph.
-const STEEPEST: f64 = 30.0;

@@ -1,5 +1,5 @@
-//! The gauge of a particle, g(p) = 1/τ where the ray through p leaves the particle at τ p, over a piece of a plane or a
-//! line.
+//! The gauge (Minkowski functional) of a particle, g(p) = 1/τ where the ray through p leaves the particle at τ p, over
+//! a piece of a plane or a line.
 //!
 //! g is convex, and homogeneous of degree 1: its gradient q(p) at any p gives the supporting plane q·x ≤ 1 of the
 //! particle at p/g(p), and q(p)·y ≤ g(y) for all y. With x = p/g and P = I − x qᵀ its Hessian is
@@ -13,22 +13,14 @@
 //! inactive at the corners is inactive all over it. For d < 0 it is the other way round. Where no plane is left
 //! undecided, the surface is a single quadric over the piece, and g is analytic.
 
-use crate::particle::shape::Shape;
+use super::numbers::{LEAST_STEP, Limits, UNDECIDED_SLOPE};
+use crate::particle::solid::Solid;
 use crate::particle::{potential, ray_cast};
 use nalgebra::Vector3;
 
-/// Most Newton steps on a ray: far outside each halves the distance, and beside the surface each doubles the digits.
-const MOST_STEPS: usize = 200;
-
-/// Least step, relative.
-const ROUNDING: f64 = 4.0 * f64::EPSILON;
-
-/// Part of the terms of h below which its sign is not trusted.
-const UNDECIDED: f64 = 16.0 * f64::EPSILON;
-
 /// A particle with what does not depend on the piece.
 pub(crate) struct Gauge<'a> {
-    shape: &'a Shape,
+    shape: &'a Solid,
     /// Planes behind which the origin lies: they may be active anywhere.
     behind: Vec<usize>,
 }
@@ -97,7 +89,7 @@ pub(crate) struct Undecided {
 }
 
 impl<'a> Gauge<'a> {
-    pub fn of(shape: &'a Shape) -> Self {
+    pub fn of(shape: &'a Solid) -> Self {
         let behind = (0..shape.len()).filter(|&i| shape.offset(i) < 0.0).collect();
         Self { shape, behind }
     }
@@ -112,7 +104,7 @@ impl<'a> Gauge<'a> {
         if !shape.is_sphere() {
             found.extend_from_slice(&self.behind);
             for (corner, bound) in corners.iter().zip(&lower) {
-                let early = UNDECIDED * shape.bounds.longest_normal * corner.norm() / bound;
+                let early = UNDECIDED_SLOPE * shape.bounds.longest_normal * corner.norm() / bound;
                 shape.visit_near(&(corner / *bound), early, |i, _, excess| {
                     if excess > -early {
                         found.push(i);
@@ -167,7 +159,7 @@ impl Piece {
         let lower = lower_bounds(corners, &tangent, height * self.least);
         let longest = corners.iter().map(|p| p.norm()).fold(0.0, f64::max);
         let counted = self.planes.iter().map(|plane| Counted::of(plane.n, plane.d, corners, &lower));
-        let may_count = |plane: &Counted| plane.d < 0.0 || plane.most > -UNDECIDED * plane.length * longest;
+        let may_count = |plane: &Counted| plane.d < 0.0 || plane.most > -UNDECIDED_SLOPE * plane.length * longest;
         Self { planes: counted.filter(may_count).collect(), tangent, lower, ..*self }
     }
 
@@ -202,7 +194,7 @@ impl Piece {
         let mut outside = tau;
         let mut is_open = [true; N];
         let coordinates = [0, 1, 2].map(|axis| points.map(|p| p[axis]));
-        for is_first in (0..MOST_STEPS).map(|step| step == 0) {
+        for is_first in (0..Limits::GAUGE_STEPS).map(|step| step == 0) {
             let sums = self.sums(&coordinates, &tau);
             for i in 0..N {
                 if !is_open[i] {
@@ -217,18 +209,18 @@ impl Piece {
                     outside[i] = tau[i];
                 }
                 // The rounding of a tangent may have put the start inside, where no plane may be active.
-                if is_first && !(step >= -ROUNDING * tau[i]) {
+                if is_first && !(step >= -LEAST_STEP * tau[i]) {
                     tau[i] = self.beyond_a_plane(&points[i]);
                     outside[i] = tau[i];
                     continue;
                 }
                 // Also where a step is not a number.
-                let moves = step > ROUNDING * tau[i];
+                let moves = step > LEAST_STEP * tau[i];
                 if moves {
                     tau[i] -= step;
                 }
                 let left = 0.5 * half_curvature * step * step;
-                is_open[i] = moves && left > 0.25 * ROUNDING * tau[i] * half_slope;
+                is_open[i] = moves && left > 0.25 * LEAST_STEP * tau[i] * half_slope;
             }
             if !is_open.contains(&true) {
                 break;
@@ -285,7 +277,7 @@ impl Piece {
             tangent: if usable { half / (half_slope * tau / outside) } else { p * (gauge / p.norm_squared()) },
             slope: 2.0 * half_slope,
             rounding: gauge
-                * (ROUNDING + if usable { ROUNDING * self.plane_weight * rounding / half_slope } else { 0.0 }),
+                * (LEAST_STEP + if usable { LEAST_STEP * self.plane_weight * rounding / half_slope } else { 0.0 }),
         }
     }
 
@@ -308,7 +300,7 @@ impl Piece {
                 h.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), h| (h.min(low), h.max(high)))
             };
             let (low, high) = if *d >= 0.0 { (over(gauges).0, *most) } else { (over(&self.lower).0, over(gauges).1) };
-            let rounding = UNDECIDED * length * longest;
+            let rounding = UNDECIDED_SLOPE * length * longest;
             if high > rounding && low < -rounding {
                 undecided.push(Undecided { n: *n, d: *d, excess: high.min(-low) / of_lower });
             }

@@ -14,7 +14,13 @@ use nalgebra::Vector3;
 ///
 /// Two dual bounds are tried: the local model's where its multipliers are admissible, and the
 /// linear one, φ(x) − |∇φ|·D, for any optimum within a distance D of x.
-pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], problem: Problem) -> Solution {
+pub(crate) fn external_solution(
+    x: &Vector3<f64>,
+    lambda: f64,
+    s: f64,
+    bodies: [&Body; 2],
+    problem: Problem,
+) -> Solution {
     let start = Start { x: *x, lambda };
     let plain = LocalModel::at(bodies, &start, problem, Axes::OfB);
     let values = [plain.q_a.value, plain.q_b.value];
@@ -44,8 +50,8 @@ pub(crate) fn judged(x: &Vector3<f64>, lambda: f64, s: f64, bodies: [&Body; 2], 
     }
 }
 
-/// The dual value of the local model at its own optimal λ, sought from the given one, less all that is in doubt about
-/// it. Planes that only seem to be on are dropped one by one, as in the solver.
+/// The dual value of the local model at its own optimal λ, sought from the given one, less its
+/// rounding. Planes that are wrongly in the active set are dropped one by one, as in the solver.
 fn dual_value(bodies: [&Body; 2], start: &Start, problem: Problem, upper: f64) -> Option<f64> {
     let weights = problem.weights(start.lambda);
     let mut model = LocalModel::at(bodies, start, problem, Axes::Graded);
@@ -100,7 +106,7 @@ mod tests {
             let x = Vector3::new(0.0, 0.0, 1.6)
                 + 0.1_f64.powi((seed % 7) as i32) * Vector3::<f64>::from_fn(|_, _| chance());
             for (problem, s) in [(Problem::Midway, 0.8), (Problem::OnB, 0.4), (Problem::OnA, 0.7)] {
-                let found = judged(&x, 2.0 * f64::exp(3.0 * chance()), s, [&a, &b], problem);
+                let found = external_solution(&x, 2.0 * f64::exp(3.0 * chance()), s, [&a, &b], problem);
                 let (low, high) = (found.lower - found.rounding, found.upper + found.rounding);
                 assert!(low <= s * s && s * s <= high, "{problem:?} at {x:?}: {low}, {high}");
             }
