@@ -69,7 +69,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
-  MESH_FILES=1000   fuzz: damaged mesh files of each kind, read by the plugin
+  MESH_FILES=1000   fuzz: damaged mesh files of each kind
   SUITE=trixie      test-debian13: which release of Debian; SUITES="bookworm trixie": deb, packages-test
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
@@ -313,7 +313,7 @@ fuzz:
 	$(call heading,Fuzzing)
 	@fuzz/run.sh
 	$(call heading,Mesh files with random damage)
-	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) $(PYTEST) tests/yade/test_mesh_file.py --threads 1; \
+	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) PYTHONPATH=$(GLUE_BUILD)/python $(PYTEST) python/tests/test_mesh_files.py; \
 	else echo 'skipped: the plugin is not built (make build)'; fi
 	$(call heading,Inputs of LAMMPS with something changed)
 	@if [ -f out/lammps/build/potential_particles_plugin.so ]; then tests/lammps/fuzz.py $(FUZZ_SECONDS); else echo 'skipped: the plugin is not built (make lammps)'; fi
