@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Builders, mass properties, meshes, rock and the plane against closed forms; files; the stubs against the module."""
+"""Builders, mass properties, meshes and the plane against closed forms; files; the stubs against the module."""
 import ast
 import math
 import pickle
@@ -306,64 +306,6 @@ class Builders(unittest.TestCase):
         self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] == 2).all())
         self.assertLess(max(abs(particle.potential(vertex)) for vertex in mesh.vertices[:100]), 1e-9)
         self.assertLess(mesh.error, 1e-3 * particle.bounding_radius)
-
-
-class Rock(unittest.TestCase):
-    def test_arrays_are_the_blocks(self):
-        discs = rock.JointSet(50, 120, 2.0, radius=4.0, seed=3)
-        square = rock.polygon([(-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)])
-        mass = rock.slice(rock.Domain(BOX), [discs, square, rock.joint((0, 0, 0), 0, 0)], progress=False)
-        faces, partners = mass.faces, mass.partners
-        self.assertEqual(sum(one.radius == 4.0 for one in mass.joints), len(mass.joints) - 2)
-        for number, block in enumerate(mass):
-            np.testing.assert_array_equal(faces["plane"][block.faces], block.planes)
-            self.assertTrue((faces["block"][block.faces] == number).all())
-            for face, plane in zip(block.faces, block.planes):
-                np.testing.assert_allclose(mass.outline(face) @ plane[:3], plane[3], atol=1e-9)
-            self.assertTrue((block.corners @ block.planes[:, :3].T <= block.planes[:, 3] + 1e-9).all())
-        # What a face shares with its partners is all of it, but for those of the domain.
-        shared = np.zeros(len(faces))
-        for side in (0, 1):
-            np.add.at(shared, partners["faces"][:, side].astype(int), partners["area"])
-        np.testing.assert_allclose(shared, np.where(faces["of"] == 0, 0.0, faces["area"]), atol=1e-9)
-
-    def test_blocks_fill_the_domain(self):
-        joints = [rock.JointSet(30, 90, 1.5, exponential=True), rock.JointSet(80, 280, 2.0, fisher=50, seed=1)]
-        mass = rock.slice(rock.Domain(BOX), joints)
-        self.assertAlmostEqual(mass.volume, 1000, delta=1e-9)
-        block = mass[0]
-        shape = shapes.from_planes(block.planes, r=1e-4, k=0)
-        self.assertAlmostEqual(shape.volume / block.volume, 1, delta=1e-3)
-        tunnel = rock.Domain([(0, 0, 1, 1), (0, 0, -1, 1), (1, 0, 0, 1), (-1, 0, 0, 1), (0, 1, 0, 6), (0, -1, 0, 6)])
-        with_tunnel = rock.slice(rock.Domain(BOX), joints, regions=[tunnel])
-        self.assertAlmostEqual(with_tunnel.blocks["volume"][with_tunnel.inside(0)].sum(), 40, delta=1e-9)
-        self.assertTrue((with_tunnel.faces["of"] == 2).any())
-        self.assertLess(len(np.unique(with_tunnel.pieces)), len(with_tunnel))
-        self.assertEqual(len(pickle.loads(pickle.dumps(mass))), len(mass))
-        with self.assertRaisesRegex(ValueError, "dip=95 must lie between 0 and 90"):
-            rock.joint((0, 0, 0), 95, 0)
-
-    def test_key_blocks_and_water(self):
-        """A wedge on one plane that dips by 40 degrees: tan phi / tan dip, with water as of a closed form."""
-        domain = rock.Domain.box((0, 0, 0), (4, 4, 4))
-        mass = rock.slice(domain, [rock.joint((2, 2, 2), 40, 90)])
-        upper = int(np.argmax([block.centroid[2] for block in mass]))
-        friction = 30.0
-        expected = math.tan(math.radians(friction)) / math.tan(math.radians(40))
-        open_sides = [one for one in range(6) if one != rock.Domain.BOTTOM]
-        found = [one for one in rock.key_blocks(mass, open_sides, degrees=friction) if upper in one.blocks][0]
-        self.assertEqual((found.mode, round(found.factor / expected, 12)), ("sliding", 1.0))
-        answer = rock.limit_analysis(mass, [1 - upper], degrees=friction)
-        self.assertAlmostEqual(answer.factor / expected, 1, delta=1e-5)
-        scene = rock.limit_scene(mass, [1 - upper], degrees=friction)
-        self.assertAlmostEqual(scene.strength_factor().factor / expected, 1, delta=1e-5)
-        loads = rock.water_pressure(mass, mass.faces_of([0]), level=4.0, unit_weight=1e4)
-        area = 16 / math.cos(math.radians(40))
-        self.assertAlmostEqual(np.linalg.norm(loads[upper, :3]) / (area * 2e4), 1, delta=1e-12)
-
-    def test_bodies_need_yade(self):
-        with self.assertRaisesRegex(AttributeError, "rock.bodies is for bodies of YADE"):
-            rock.bodies
 
 
 class Packings(unittest.TestCase):
