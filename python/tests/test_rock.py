@@ -85,6 +85,46 @@ class Rock(unittest.TestCase):
         area = 16 / math.cos(math.radians(40))
         self.assertAlmostEqual(np.linalg.norm(loads[upper, :3]) / (area * 2e4), 1, delta=1e-12)
 
+    def test_key_blocks_by_closed_forms(self):
+        """tan(phi)/tan(dip) + c A/(W sin(dip)) on a plane; the wedge of Hoek & Bray."""
+        bench = Domain.box((0, 0, 0), (4, 2, 3)).below((3.9, 0, 0), 75, 90)
+        plane = cut(bench, [rock.joint((3, 0, 1), 35, 90), rock.joint((1, 1, 1), 90, 90)])
+        free, dip = (Domain.TOP, Domain.NORTH, Domain.SOUTH, 6), math.radians(35)
+        found = rock.key_blocks(plane, free, degrees={0: 30, None: 5}, cohesion={0: 2e3, None: 0})
+        slid, = [one for one in found if one.mode == "sliding"]
+        weight = 2600 * 9.81 * slid.volume
+        exact = (math.tan(math.radians(30)) / math.tan(dip)
+                 + 2e3 * plane.faces["area"][slid.faces[0]] / (weight * math.sin(dip)))
+        self.assertAlmostEqual(slid.factor, exact, delta=1e-12)
+        np.testing.assert_allclose(slid.direction, (math.cos(dip), 0, -math.sin(dip)), atol=1e-12)
+        self.assertTrue(slid.removable and slid.color == rock.COLOURS["held" if exact > 1 else "sliding"])
+        # Water behind it drives it.
+        dry, = [one for one in rock.key_blocks(plane, free, degrees=40) if one.mode == "sliding"]
+        loads = rock.water_pressure(plane, plane.faces_of(1), level=3.0)
+        wet, = [one for one in rock.key_blocks(plane, free, degrees=40, loads=loads) if one.blocks == dry.blocks]
+        self.assertLess(wet.factor, dry.factor)
+        joints = [rock.joint((0, 0, 0), 50, 140), rock.joint((0, 0, 0), 60, 230)]
+        normals = [np.array(one.normal) for one in joints]
+        line = np.cross(*normals)
+        line *= -np.sign(line[2]) / np.linalg.norm(line)
+        block = Domain.box((-9, -9, -9), (9, 9, 1)).below((0, 0, 0), 80, math.degrees(math.atan2(line[0], line[1])))
+        wedge, = [one for one in rock.key_blocks(cut(block, joints), (Domain.TOP, 6), degrees=33) if one.mode == "wedge"]
+        cosine = normals[0] @ normals[1]
+        forces = np.linalg.solve([[1, cosine], [cosine, 1]], [normals[0][2], normals[1][2]])
+        self.assertAlmostEqual(wedge.factor, math.tan(math.radians(33)) * forces.sum() / -line[2], delta=1e-9)
+        np.testing.assert_allclose(wedge.direction, line, atol=1e-9)
+        self.assertIn("wedge", rock.summary([wedge]))
+
+    def test_what_rests_on_an_excavated_block_falls(self):
+        hung = cut(CUBE, [rock.joint((0, 0, 0), 0, 0)], regions=[Domain.box((-2, -2, -2), (2, 2, -0.5))])
+        modes = [one.mode for one in rock.key_blocks(hung, (), removed=hung.inside(0))]
+        self.assertEqual(sorted(modes), ["falling", "inner"])
+
+    def test_friction_is_a_coefficient_or_an_angle(self):
+        by_number, by_angle = (rock.key_blocks(MASS, (), **how)
+                               for how in (dict(friction=math.tan(math.radians(25))), dict(degrees=25)))
+        self.assertEqual([one.factor for one in by_number], [one.factor for one in by_angle])
+
     def test_bodies_need_yade(self):
         with self.assertRaisesRegex(AttributeError, "rock.bodies is for bodies of YADE"):
             rock.bodies
@@ -190,6 +230,10 @@ UNIT = Domain.box((0, 0, 0), (1, 1, 1))
     ("at most 10 million joints", lambda: cut(CUBE, [rock.JointSet(5, 0, 1e-8)])),
     ("friction has no key None", lambda: rock.key_blocks(MASS, (), friction={0: 0.3})),
     ("friction='bedding'", lambda: rock.key_blocks(MASS, (), friction={"bedding": 0.3, None: 0.3})),
+    ("hold fewer blocks", lambda: rock.limit_analysis(MASS, range(len(MASS)))),
+    ("question='?' is unknown", lambda: rock.limit_analysis(MASS, [0], "?")),
+    ("degrees=90", lambda: rock.limit_analysis(MASS, [0], degrees=90)),
+    ("give degrees=35", lambda: rock.key_blocks(MASS, (), friction=35)),
     ("free must be numbers of planes", lambda: rock.key_blocks(MASS, [True, False])),
     ("free holds 77", lambda: rock.key_blocks(MASS, [77])),
     ("loads must be", lambda: rock.key_blocks(MASS, (), loads=np.full((len(MASS), 6), math.nan))),

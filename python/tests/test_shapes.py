@@ -308,29 +308,6 @@ class Builders(unittest.TestCase):
         self.assertLess(mesh.error, 1e-3 * particle.bounding_radius)
 
 
-class Packings(unittest.TestCase):
-    def test_nothing_overlaps(self):
-        stones = [shapes.random_rock(seed) for seed in range(3)]
-        placed = packing.pack(packing.Box((0, 0, 0), (6, 6, 6)), stones, number=30, seed=5, progress=False)
-        self.assertEqual(len(placed), 30)
-        bodies = [one.shape.scaled(one.scale) for one in placed]
-        poses = [pp.Pose(np.add(one.position, pp.Pose((0, 0, 0), one.orientation).rotation @ shape.centroid),
-                         product(one.orientation, shape.orientation)) for one, shape in zip(placed, bodies)]
-        for one, body, pose in zip(placed, bodies, poses):
-            self.assertEqual(one.particle, body.particle)
-            np.testing.assert_allclose(one.pose.position, pose.position, rtol=0, atol=1e-12)
-            np.testing.assert_allclose(one.pose.rotation, pose.rotation, rtol=0, atol=1e-12)
-        for i in range(30):
-            for j in range(i):
-                self.assertFalse(pp.detect(bodies[i].particle, poses[i], bodies[j].particle, poses[j]).overlapping)
-
-
-def product(first, second):
-    """Of two quaternions w, x, y, z."""
-    (a, *u), (b, *v) = first, second
-    return (a * b - np.dot(u, v), *(a * np.array(v) + b * np.array(u) + np.cross(u, v)))
-
-
 class InPlane(unittest.TestCase):
     def test_discs_and_squares(self):
         disc = pp.Particle.in_plane([], r=0, k=1, R=1)

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Shapes from planes, points and names of solids: where their faces are, their frames and their mass in YADE. What needs no
-# YADE: python/tests/test_shapes.py.
+# Shapes from planes, points and names of solids: where their faces are, their frames and their mass in YADE. What needs
+# no YADE: python/tests/test_shapes.py.
 import numpy as np
 
 import potential_particles
