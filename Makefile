@@ -69,7 +69,7 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   SEED=N            stress: repeats the pairs of that seed; without it each run draws one, and prints it first
   SETTLE=1          stress: settle one pose in so many in 32 digits, and those in doubt; POSES=100000000 SETTLE=200 takes 45 minutes
   FUZZ_SECONDS=60   fuzz: how long each target
-  MESH_FILES=1000   fuzz: damaged mesh files of each kind, read by the plugin
+  MESH_FILES=1000   fuzz: damaged mesh files of each kind
   SUITE=trixie      test-debian13: which release of Debian; SUITES="bookworm trixie": deb, packages-test
   CACHE=out/debian  test-debian13: where that release and its packages stay for the next time; FRESH=1 makes it anew
   WERROR=0          build, test: 1 takes compiler warnings for errors, as this project's CI does
@@ -94,6 +94,7 @@ export CARGO_TARGET_DIR
 LIBRARY := $(CARGO_TARGET_DIR)/release/libpotential_particles.so
 CORE := $(CARGO_TARGET_DIR)/maturin/release/lib_core.so
 GLUE_BUILD := yade-glue/build
+PYTEST := /usr/bin/python3 -m pytest -n auto
 
 # Where rustup puts cargo, for shells that were open before.
 export PATH := $(PATH):$(HOME)/.cargo/bin
@@ -171,7 +172,7 @@ scenes: glue
 lammps: setup library
 	$(call heading,LAMMPS)
 	@scripts/lammps_setup.sh
-	@tests/lammps/run.py
+	@$(PYTEST) tests/lammps
 
 # Set-up comes first: the tests are started by Python.
 test:
@@ -243,7 +244,7 @@ sanitize: setup library core
 	@cmake -S yade-glue -B out/sanitize -DPP_LIBRARY="$(LIBRARY)" -DPP_CORE="$(CORE)" -DCMAKE_CXX_FLAGS="$(SANITIZERS)" >/dev/null
 	@cmake --build out/sanitize --parallel $$(nproc)
 	@LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libubsan.so)" ASAN_OPTIONS=detect_leaks=0 \
-	UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 tests/yade/run.py --package out/sanitize/python -j1 -j2
+	UBSAN_OPTIONS=print_stacktrace=1:halt_on_error=1 $(PYTEST) tests/yade --package out/sanitize/python --threads 1 --threads 2
 
 patch:
 	$(call heading,Contact patches)
@@ -312,7 +313,7 @@ fuzz:
 	$(call heading,Fuzzing)
 	@fuzz/run.sh
 	$(call heading,Mesh files with random damage)
-	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) tests/yade/run.py -j1 mesh_file; \
+	@if [ -d $(GLUE_BUILD)/python/potential_particles ]; then PP_MESH_FILES=$(or $(MESH_FILES),1000) PYTHONPATH=$(GLUE_BUILD)/python $(PYTEST) python/tests/test_mesh_files.py; \
 	else echo 'skipped: the plugin is not built (make build)'; fi
 	$(call heading,Inputs of LAMMPS with something changed)
 	@if [ -f out/lammps/build/potential_particles_plugin.so ]; then tests/lammps/fuzz.py $(FUZZ_SECONDS); else echo 'skipped: the plugin is not built (make lammps)'; fi

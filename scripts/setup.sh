@@ -21,6 +21,8 @@ readonly PACKAGES=(
     python3-matplotlib python3-numpy
     # shapes: convex hulls, and files of surfaces; pictures, and files for ParaView
     python3-scipy python3-vtk9
+    # the tests in Python, as many at once as there are processors; C's run under cmake's ctest
+    python3-pytest python3-pytest-xdist
     # progress bars
     python3-tqdm
     # virtual environments, in which the wheel is built and tried and LAMMPS stands

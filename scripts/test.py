@@ -33,12 +33,17 @@ CORE = TARGET / "maturin" / "release" / "lib_core.so"
 MINUTES = 30
 # Of what one stage says of its failures.
 LINES = 60
-# Of our own runners, and of cargo.
-SUM = re.compile(r"^(\d+) passed, (\d+) failed$|^test result: \w+\. (\d+) passed; (\d+) failed", re.MULTILINE)
+# Sums: of our scripts, in the output of ctest too, and of tests/conftest.py; of cargo; of pytest; of ctest.
+OURS = re.compile(r"(?P<within>\d+: )?([\d,]+)(?P<checks> checks)? passed, ([\d,]+) failed")
+CARGO = re.compile(r"test result: \w+\. (\d+) passed; (\d+) failed.*")
+PYTEST = re.compile(r"(?:=+ )?(\d+ [a-z]+(?:, \d+ [a-z]+)*) in \d[\d.]*s\b.*")
+CTEST = re.compile(r"\d+% tests passed, (\d+) tests failed out of (\d+)")
 # Targets of benchmarks and studies; they tell of the machine, too, and fail nothing.
 MISSED = re.compile(r"^.*\bMISSED\b.*$", re.MULTILINE)
-# First lines of a failed check: our scripts, the C harness, cargo, unittest.
-FAULT = re.compile(r"FAIL|ERROR: |error|thread '.*panicked|\S+\.[ch]:\d+: |Traceback")
+# First lines of a failed check: our scripts, the C harness within ctest, cargo, pytest.
+FAULT = re.compile(r"FAIL|ERROR|E   |error|thread '.*panicked|(\d+: )?\S+\.[ch]:\d+: |Traceback")
+RUN_PYTEST = ("/usr/bin/python3", "-m", "pytest")
+SPREAD = ("-n", "auto")
 MAKE = ("make", "--no-print-directory", "--silent")
 CARGO_TEST = ("cargo", "test", "--release", "--no-fail-fast", "--quiet")
 
@@ -76,6 +81,18 @@ def glue(profile):
                                                                str(jobs())))
 
 
+def ctest(profile, *more):
+    """The C harness, which says how many checks each part has made."""
+    build = str(TARGET / "c" / profile)
+    return (("cmake", "-S", "tests/c", "-B", build, f"-DPP_LIBRARY={TARGET / profile / 'libpotential_particles.so'}",
+             f"-DPP_WERROR={os.environ.get('WERROR') or 0}"), ("cmake", "--build", build, "--parallel", str(jobs())),
+            ("ctest", "--test-dir", build, "--parallel", str(jobs()), "--no-tests=error", "--verbose", *more))
+
+
+def ctest_long(labels):
+    return ("ctest", "--test-dir", str(TARGET / "c" / "release"), "--no-tests=error", "--output-on-failure", "-C", "long", "-L", labels)
+
+
 # In the order in which they start, the longest first; what others need stands at the top.
 STAGES = [
     check("lint", "Formatting and warnings of Rust", (*MAKE, "lint"),
@@ -86,25 +103,25 @@ STAGES = [
           needs=("library", )),
     check("yade-build", "YADE plugin, compared with this YADE", *glue("release"),
           needs=("library", "core")),
-    suite("yade", "YADE scenes", ("tests/yade/run.py", ), needs=("yade-build", )),
+    suite("yade", "YADE scenes", (*RUN_PYTEST, *SPREAD, "tests/yade"), needs=("yade-build", )),
     check("lammps-build", "LAMMPS and its plugin", ("scripts/lammps_setup.sh", ), needs=("library", "core")),
-    suite("examples", "Examples and studies, short", ("tests/examples/run.py", ), needs=("yade-build", )),
-    suite("lammps", "LAMMPS scenes", ("tests/lammps/run.py", ), needs=("lammps-build", )),
-    suite("ranks", "YADE on 1, 2 and 3 ranks", ("tests/mpi/run.py", ), needs=("yade-build", )),
+    suite("examples", "Examples and studies, short", (*RUN_PYTEST, *SPREAD, "tests/examples"), needs=("yade-build", )),
+    suite("lammps", "LAMMPS scenes", (*RUN_PYTEST, *SPREAD, "tests/lammps"), needs=("lammps-build", )),
+    suite("ranks", "YADE on 1, 2 and 3 ranks", (*RUN_PYTEST, "tests/mpi"), needs=("yade-build", )),
     suite("wheel", "Wheel for Python, in an environment of its own",
           ("env", "QUICK=1", f"OUTPUT={TARGET / 'wheel'}", "scripts/wheel.sh"), needs=("yade-build", ),
           after=("rust", )),
-    suite("blocks", "Code blocks of the guide", ("tests/guide/run.py", ), needs=("yade-build", )),
+    suite("blocks", "Code blocks of the guide", (*RUN_PYTEST, "tests/guide"), needs=("yade-build", )),
     check("install", "Library installed, moved, linked and removed", ("env", "PROFILE=dev", f"CORE={CORE}", "scripts/try_install.sh"),
           needs=("core", ),
           after=("library", )),
-    suite("c", "C harness and examples, header as C++", (*MAKE, "-C", "tests/c", "run", "complete", "cxx", "examples"),
+    suite("c", "C harness and examples, header as C++", *ctest("release"),
           needs=("library", )),
     suite("guide", "Guide as a site, and its links", ("scripts/guide.sh", str(GUIDE)),
           ("tests/guide/links.py", str(GUIDE)), needs=("yade-build", )),
     suite("words", "Words, sentences and constants of the guide; versions; judges of make peers",
           ("tests/guide/words.py", ), ("tests/guide/sentences.py", ), ("tests/guide/constants.py", ),
-          ("scripts/versions.py", ), ("/usr/bin/python3", "benches/peers/test_answers.py")),
+          ("scripts/versions.py", ), (*RUN_PYTEST, "benches/peers")),
     # What takes long and says little to a user.
     # In a folder of its own: cargo gives the library of other features the same name.
     suite("features", "Rust tests without cone programs",
@@ -113,15 +130,15 @@ STAGES = [
           needs=("library", ), plans=("all", )),
     suite("rust-long", "Fuzz targets, ten times as long", ("env", "PP_LONG=1", *CARGO_TEST, "--test", "fuzz_replay"),
           needs=("rust", ), plans=("all", )),
-    suite("yade-long", "YADE scenes that take long; all with 2 threads", ("tests/yade/run.py", "--long"),
+    suite("yade-long", "YADE scenes that take long; all with 2 threads", (*RUN_PYTEST, *SPREAD, "tests/yade", "--long"),
           needs=("yade-build", ), plans=("all", )),
-    suite("examples-long", "Examples and studies that take long", ("tests/examples/run.py", "--long"),
+    suite("examples-long", "Examples and studies that take long", (*RUN_PYTEST, *SPREAD, "tests/examples", "--long"),
           needs=("yade-build", ), plans=("all", )),
     suite("kept", "YADE killed and loaded, shaken, started often", ("tests/yade/long/run.py", "--short"),
           needs=("yade-build", ), plans=("all", )),
-    suite("lammps-long", "LAMMPS scenes, all of them", ("tests/lammps/run.py", "--all"), needs=("lammps-build", ),
+    suite("lammps-long", "LAMMPS scenes that take long", (*RUN_PYTEST, *SPREAD, "tests/lammps", "--long"), needs=("lammps-build", ),
           plans=("all", )),
-    suite("ranks-long", "YADE on ranks, long", ("tests/mpi/run.py", "--long"), needs=("yade-build", ), plans=("all", )),
+    suite("ranks-long", "YADE on ranks, long", (*RUN_PYTEST, "tests/mpi", "--long"), needs=("yade-build", ), plans=("all", )),
     # Each target that measures, a little of it (side-by-side and classics are among the examples). One that panics or
     # raises fails; what misses its target is printed. Those of make peers only where its contestants are there.
     check("measured", "What make bench, patch, equilibrium and stress measure, a little of each",
@@ -132,10 +149,10 @@ STAGES = [
           (*MAKE, "patch-yade", "CASES=face"), ("env", "SCENES=rods", *MAKE, "time-step"),
           *([(*MAKE, "peers", "QUICK=1")] if (TOP / "out" / "peers" / "bin").is_dir() else []), needs=("yade-build", ),
           after=("yade", "examples"), plans=("all", )),
-    check("asan", "C harness under AddressSanitizer and UBSan", (*MAKE, "-C", "tests/c", "asan"), needs=("library", ),
+    check("asan", "C harness under AddressSanitizer and UBSan", ctest_long("asan"), needs=("c", ),
           plans=("all", )),
-    check("valgrind", "C harness under valgrind", (*MAKE, "-C", "tests/c", "valgrind"), needs=("c", ), plans=("all", )),
-    check("tsan", "Threads under ThreadSanitizer and helgrind", (*MAKE, "-C", "tests/c", "tsan", "helgrind"),
+    check("valgrind", "C harness under valgrind", ctest_long("valgrind"), needs=("c", ), plans=("all", )),
+    check("tsan", "Threads under ThreadSanitizer and helgrind", ctest_long("tsan|helgrind"),
           needs=("c", ), plans=("all", )),
 ]
 
@@ -149,13 +166,32 @@ CHECK = [
     suite("rust", "Rust tests, with the C header", ("cargo", "test", "--profile", "quick", "--no-fail-fast", "--lib",
                                                     "--tests", "--", "--skip", "stress::", "--skip", "fuzz_replay::"),
           needs=("library", )),
-    suite("c", "C harness", (*MAKE, "-C", "tests/c", "run", "PROFILE=quick"), needs=("library", )),
+    suite("c", "C harness", *ctest("quick", "-LE", "example"), needs=("library", )),
     check("core", "Module of Python, quick build", ("env", "PROFILE=quick", "scripts/core.sh")),
     check("yade-build", "YADE plugin, compared with this YADE", *glue("quick"),
           needs=("library", "core")),
-    suite("yade", "YADE: particles with particles, spheres, boxes, walls and facets", ("tests/yade/run.py", "mixed"),
+    suite("yade", "YADE: particles with particles, spheres, boxes, walls and facets", (*RUN_PYTEST, "tests/yade/test_mixed.py"),
           needs=("yade-build", )),
 ]
+
+
+def counted(text):
+    """(passed, failed) of an output: the checks that are told, and tests of pytest and ctest that tell of none."""
+    sums, told = [], False
+    for line in text.splitlines():
+        if found := OURS.fullmatch(line):
+            sums.append([int(found[i].replace(",", "")) for i in (2, 4)])
+            told = told or bool(found["within"] or found["checks"])
+        elif found := CARGO.fullmatch(line):
+            sums.append([int(found[1]), int(found[2])])
+        elif found := PYTEST.fullmatch(line) or CTEST.fullmatch(line):
+            if not told and found.re is PYTEST:
+                of = {word.rstrip("s"): int(number) for number, word in map(str.split, found[1].split(", "))}
+                sums.append([of.get("passed", 0), of.get("failed", 0) + of.get("error", 0)])
+            elif not told:
+                sums.append([int(found[2]) - int(found[1]), int(found[1])])
+            told = False
+    return [sum(one[i] for one in sums) for i in (0, 1)]
 
 
 class Run:
@@ -202,8 +238,7 @@ class Run:
         self.output.close()
         self.seconds = time.monotonic() - self.begin
         if self.stage.suite:
-            counts = [[int(number or 0) for number in found] for found in SUM.findall(self.text())]
-            self.passed, self.failed = (sum(one[i] + one[i + 2] for one in counts) for i in (0, 1))
+            self.passed, self.failed = counted(self.text())
             if self.passed + self.failed == 0 or (self.status and not self.failed):
                 self.failed += 1
         else:

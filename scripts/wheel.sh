@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the wheel, the library for Python without YADE, into out/wheel, and tries it in a virtual environment that has
-# nothing else but numpy: its tests, and the blocks of docs/wheel.md. With QUICK=1 it is built for this system alone,
+# nothing else but numpy, and pytest with what that needs: its tests, and the blocks of its pages. With QUICK=1 it is built for this system alone,
 # and the demo is not run. maturin and ziglang, a linker for systems
 # with an older C library than this one, come from PyPI into a virtual environment of their own. Called by "make wheel"
 # and "make test".
@@ -47,8 +47,11 @@ PATH=$TOOLS/bin:$PATH "$TOOLS/bin/maturin" build "${how[@]}" --locked --manifest
 rm -rf "$TRIED"
 "$PYTHON" -m venv "$TRIED"
 from_pypi "$TRIED" "$OUT"/*.whl
+wants=$("$TRIED/bin/python" -m pip show potential-particles 2>/dev/null | sed -n 's/^Requires: //p')
+[ "$wants" = numpy ] || die "it asks for more than numpy: $wants"
+from_pypi "$TRIED" pytest
 # From elsewhere, so that nothing of the sources is found by its place.
-(cd "$TRIED" && bin/python "$OLDPWD/python/tests/run.py")
+(cd "$TRIED" && bin/python -m pytest "$OLDPWD/python/tests")
 
 # Beside the plugin for YADE, where that is built, with either of them first on the path: without the numpy of the
 # environment above.

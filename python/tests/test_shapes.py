@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Builders, mass properties, meshes, rock and the plane against closed forms; files; the stubs against the module."""
+"""Builders, mass properties, meshes and the plane against closed forms; files; the stubs against the module."""
 import ast
 import math
 import pickle
@@ -30,8 +30,8 @@ class Builders(unittest.TestCase):
         cases = [(shapes.cuboid((2, 1, 0.5), rounding=1e-4, k=0), 1.0),
                  (shapes.prism(4, 0.5, 3, 0, rounding=1e-4, k=0), 1.0),
                  (shapes.cylinder(1, 2, 64, rounding=1e-4, k=0), 2 * math.pi),
-                 (shapes.platonic_solid(8, rounding=1e-4, k=0), math.sqrt(2) / 3),
                  (shapes.sphere(2), 32 / 3 * math.pi),
+                 *((shapes.prism(n, 0.5, 2, rounding=1e-4, k=0), n / 2 * math.tan(math.pi / n)) for n in (3, 6, 7)),
                  (shapes.from_planes([(1, 1, 1, 1), (-1, 0, 0, 0), (0, -1, 0, 0), (0, 0, -1, 0)], rounding=1e-4,
                                        k=0), 1 / 6)]
         for shape, volume in cases:
@@ -39,6 +39,27 @@ class Builders(unittest.TestCase):
             mass = shape.particle.mass_properties()
             self.assertLess(np.abs(mass.centroid).max(), 1e-5)
             self.assertLess(np.abs(mass.inertia - np.diag(np.diag(mass.inertia))).max(), 1e-4 * mass.inertia.max())
+
+    def test_regular_solids_balls_and_pyramids(self):
+        volumes = {4: 1 / (6 * math.sqrt(2)), 6: 1.0, 8: math.sqrt(2) / 3, 12: (15 + 7 * math.sqrt(5)) / 4,
+                   20: 5 * (3 + math.sqrt(5)) / 12}
+        for faces, volume in volumes.items():
+            solid = shapes.platonic_solid(faces, edge=2.0, rounding=1e-5, k=0)
+            self.assertAlmostEqual(solid.volume / (8 * volume), 1, delta=1e-5)
+            # Coplanar triangles are one; inertia is the same about all axes.
+            self.assertEqual(len(solid.particle.planes), faces)
+            self.assertAlmostEqual(max(solid.inertia) / min(solid.inertia), 1, delta=1e-5)
+        box = shapes.cuboid((1, 2, 0.5), rounding=1e-5, k=0)
+        np.testing.assert_allclose(box.inertia, np.array([4.25, 1.25, 5]) / 12, atol=2e-6)
+        self.assertEqual((tuple(box.orientation), tuple(box.centroid)), ((1, 0, 0, 0), (0, 0, 0)))
+        ball = shapes.sphere(2.0)
+        self.assertAlmostEqual(ball.inertia[0] / (1.6 * ball.volume), 1, delta=1e-6)
+        self.assertAlmostEqual(ball.equivalent_diameter, 4, delta=1e-5)
+        pyramid = shapes.prism(4, 0.5, 1.0, top_radius=0.0, rounding=1e-5, k=0)
+        self.assertAlmostEqual(pyramid.centroid[2], -0.25, delta=1e-5)
+        for k in (0.0, 0.02, 0.2, 0.6):
+            cube = shapes.cuboid(rounding=0.1, k=k)
+            self.assertEqual((tuple(cube.centroid), cube.volume < 1), ((0, 0, 0), True))
 
     def test_round_bodies_keep_their_size(self):
         at = np.random.default_rng(3).normal(size=(800, 3))
@@ -95,6 +116,8 @@ class Builders(unittest.TestCase):
         with self.assertWarnsRegex(FutureWarning, "r=0.05 of then is rounding=0.05"):
             shape = shapes.cuboid((4, 2, 3), r=0.1, k=0, R=3)
         self.assertEqual((shape.particle.r, shape.particle.R), (0.1, 3))
+        # The one without a name is the share, as before.
+        self.assertEqual(shapes.cuboid((4, 2, 3), 0.05, 0.0), shapes.cuboid((4, 2, 3), rounding=0.05, k=0.0))
         self.assertAlmostEqual(shapes.cuboid((4, 2, 3), rounding=0.05, k=0).volume, shape.volume, delta=1e-9)
 
     def test_a_hull_stands_where_its_points_are(self):
@@ -227,20 +250,54 @@ class Builders(unittest.TestCase):
                         self.assertAlmostEqual(shape.volume / exact, 1, delta=1e-5 + 1e-5 * offset)
 
     def test_bad_input_is_told(self):
+        nan, wedge = float("nan"), [(0, 0, -2, -18), (0, 3, 0, 18), (0, -1, 0, -4.5), (2, 0, 1, 21), (-1, 0, 1, 6.5)]
+        square = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]
         for make, sentence in [
+                (lambda: shapes.sphere(-1), "radius=-1"), (lambda: shapes.sphere(nan), "radius=nan"),
+                (lambda: shapes.sphere("a"), "is no number"), (lambda: shapes.sphere(1e300), "radius=1e.300"),
+                (lambda: shapes.sphere(1e-110), "radius=1e-110 must be at least 1e-50"),
+                (lambda: shapes.sphere(1e-30).scaled(1e-30), "bounding radius"),
+                (lambda: shapes.sphere(1).scaled(0), "factor=0"),
                 (lambda: shapes.cuboid((1, -1, 1)), "edges=-1 must be"),
+                (lambda: shapes.cuboid((1, 1, 0)), "above 0"), (lambda: shapes.cuboid((1, 1)), "has 2 numbers"),
+                (lambda: shapes.cuboid((1e-60, 1e-60, 1e-60)), "edges=1e-60 must be at least"),
+                (lambda: shapes.cuboid(rounding=0), "rounding=0"),
+                (lambda: shapes.cuboid(rounding=0.5), "between 0 and 0.5"),
                 (lambda: shapes.cuboid((1, 1, 1), rounding=0.6), "rounding=0.6 is a share of the size"),
                 (lambda: shapes.cuboid((1, 1, 1), r=0.6), "r=0.6 is a length and must lie between 0 and 0.5"),
-                (lambda: shapes.platonic_solid(7), "4, 6, 8, 12 or 20"),
                 (lambda: shapes.cuboid((1, 1, 1), rounding=0.1, r=0.1), "rounding=0.1 and r=0.1 both"),
-                (lambda: shapes.prism(-6), "sides=-6 must"),
-                (lambda: shapes.from_vertices([(0, 0, 0)], known=-1e-9), "known=-1e-09 must lie"),
-                (lambda: shapes.prism(2), "sides=2 must"),
+                (lambda: shapes.cuboid(k=-0.1), "k=-0.1"), (lambda: shapes.cuboid(k=1.5), "k=1.5"),
+                (lambda: shapes.cuboid(k=nan), "k=nan"), (lambda: shapes.cuboid(k=1), "k=1 leaves no face: take sphere"),
+                (lambda: shapes.cuboid(k=0.1, R=0), "R=0"), (lambda: shapes.cuboid(R=1e-110), "R=1e-110"),
+                (lambda: shapes.prism(-6), "sides=-6 must"), (lambda: shapes.prism(2), "sides=2 must"),
+                (lambda: shapes.prism(6, 0.5, -1), "height=-1"),
+                (lambda: shapes.prism(10**9), "sides=1000000000"), (lambda: shapes.cylinder(0), "radius=0"),
                 (lambda: shapes.cylinder(sides=10**12), "sides=1000000000000 must"),
-                (lambda: shapes.from_vertices([(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 1, 0)]), "flat"),
-                (lambda: shapes.from_planes(BOX[:5]), "enclose no volume")]:
+                (lambda: shapes.platonic_solid(7), "4, 6, 8, 12 or 20"),
+                (lambda: shapes.platonic_solid(8, edge=nan), "edge=nan"),
+                (lambda: shapes.random_rock(-1), "seed"), (lambda: shapes.random_rock(1, faces=4), "faces"),
+                (lambda: shapes.random_rock(1, faces=10**9), "faces=1000000000"),
+                (lambda: shapes.random_rock(1, elongation=0), "elongation=0"),
+                (lambda: shapes.random_rock(1, flatness=2), "flatness=2"),
+                (lambda: shapes.from_vertices([(0, 0, 0)], known=-1e-9), "known=-1e-09 must lie"),
+                (lambda: shapes.from_vertices(square), "flat"), (lambda: shapes.from_vertices([(0, 0, 0)] * 9), "flat"),
+                (lambda: shapes.from_vertices([*square[:3], (nan, 1, 1)]), "row 3"),
+                (lambda: shapes.from_vertices([*square[:3], (1e200, 0, 1)]), r"points 3=\(1e.200, 0, 1\)"),
+                (lambda: shapes.from_vertices(np.eye(3).tolist() + [(0, 0, 0)], planes=10**9), "planes=1000000000"),
+                (lambda: shapes.from_planes([(1, 0, 0)]), "row 0 has 3 numbers"),
+                (lambda: shapes.from_planes([(1, 0, 0, nan)]), "row 0"),
+                (lambda: shapes.from_planes([(0, 0, 0, 1)] + wedge), "plane 0 is none"),
+                (lambda: shapes.from_planes(wedge[:4], k=0.0), "enclose no volume"),
+                (lambda: shapes.from_planes(wedge[1:], k=0.1), "enclose no volume"),
+                (lambda: shapes.from_planes(BOX[:5]), "enclose no volume"),
+                (lambda: shapes.from_planes([(1, 0, 0, -1), (-1, 0, 0, -1)] + BOX[2:]), "no point lies inside")]:
             with self.assertRaisesRegex(ValueError, sentence):
                 make()
+
+    def test_lengths_of_normals_do_not_matter(self):
+        for length in (1e200, 1e-200):
+            rows = [(length * a, length * b, length * c, length) for a, b, c, _ in BOX]
+            self.assertAlmostEqual(shapes.from_planes(rows, rounding=1e-4, k=0).volume, 8, delta=1e-3)
 
     def test_a_mesh_is_closed_and_near_the_surface(self):
         particle = shapes.cuboid((2, 1, 0.5), rounding=0.1).particle
@@ -249,87 +306,6 @@ class Builders(unittest.TestCase):
         self.assertTrue((np.unique(edges, axis=0, return_counts=True)[1] == 2).all())
         self.assertLess(max(abs(particle.potential(vertex)) for vertex in mesh.vertices[:100]), 1e-9)
         self.assertLess(mesh.error, 1e-3 * particle.bounding_radius)
-
-
-class Rock(unittest.TestCase):
-    def test_arrays_are_the_blocks(self):
-        discs = rock.JointSet(50, 120, 2.0, radius=4.0, seed=3)
-        square = rock.polygon([(-3, -3, 0), (3, -3, 0), (3, 3, 0), (-3, 3, 0)])
-        mass = rock.slice(rock.Domain(BOX), [discs, square, rock.joint((0, 0, 0), 0, 0)], progress=False)
-        faces, partners = mass.faces, mass.partners
-        self.assertEqual(sum(one.radius == 4.0 for one in mass.joints), len(mass.joints) - 2)
-        for number, block in enumerate(mass):
-            np.testing.assert_array_equal(faces["plane"][block.faces], block.planes)
-            self.assertTrue((faces["block"][block.faces] == number).all())
-            for face, plane in zip(block.faces, block.planes):
-                np.testing.assert_allclose(mass.outline(face) @ plane[:3], plane[3], atol=1e-9)
-            self.assertTrue((block.corners @ block.planes[:, :3].T <= block.planes[:, 3] + 1e-9).all())
-        # What a face shares with its partners is all of it, but for those of the domain.
-        shared = np.zeros(len(faces))
-        for side in (0, 1):
-            np.add.at(shared, partners["faces"][:, side].astype(int), partners["area"])
-        np.testing.assert_allclose(shared, np.where(faces["of"] == 0, 0.0, faces["area"]), atol=1e-9)
-
-    def test_blocks_fill_the_domain(self):
-        joints = [rock.JointSet(30, 90, 1.5, exponential=True), rock.JointSet(80, 280, 2.0, fisher=50, seed=1)]
-        mass = rock.slice(rock.Domain(BOX), joints)
-        self.assertAlmostEqual(mass.volume, 1000, delta=1e-9)
-        block = mass[0]
-        shape = shapes.from_planes(block.planes, r=1e-4, k=0)
-        self.assertAlmostEqual(shape.volume / block.volume, 1, delta=1e-3)
-        tunnel = rock.Domain([(0, 0, 1, 1), (0, 0, -1, 1), (1, 0, 0, 1), (-1, 0, 0, 1), (0, 1, 0, 6), (0, -1, 0, 6)])
-        with_tunnel = rock.slice(rock.Domain(BOX), joints, regions=[tunnel])
-        self.assertAlmostEqual(with_tunnel.blocks["volume"][with_tunnel.inside(0)].sum(), 40, delta=1e-9)
-        self.assertTrue((with_tunnel.faces["of"] == 2).any())
-        self.assertLess(len(np.unique(with_tunnel.pieces)), len(with_tunnel))
-        self.assertEqual(len(pickle.loads(pickle.dumps(mass))), len(mass))
-        with self.assertRaisesRegex(ValueError, "dip=95 must lie between 0 and 90"):
-            rock.joint((0, 0, 0), 95, 0)
-
-    def test_key_blocks_and_water(self):
-        """A wedge on one plane that dips by 40 degrees: tan phi / tan dip, with water as of a closed form."""
-        domain = rock.Domain.box((0, 0, 0), (4, 4, 4))
-        mass = rock.slice(domain, [rock.joint((2, 2, 2), 40, 90)])
-        upper = int(np.argmax([block.centroid[2] for block in mass]))
-        friction = 30.0
-        expected = math.tan(math.radians(friction)) / math.tan(math.radians(40))
-        open_sides = [one for one in range(6) if one != rock.Domain.BOTTOM]
-        found = [one for one in rock.key_blocks(mass, open_sides, degrees=friction) if upper in one.blocks][0]
-        self.assertEqual((found.mode, round(found.factor / expected, 12)), ("sliding", 1.0))
-        answer = rock.limit_analysis(mass, [1 - upper], degrees=friction)
-        self.assertAlmostEqual(answer.factor / expected, 1, delta=1e-5)
-        scene = rock.limit_scene(mass, [1 - upper], degrees=friction)
-        self.assertAlmostEqual(scene.strength_factor().factor / expected, 1, delta=1e-5)
-        loads = rock.water_pressure(mass, mass.faces_of([0]), level=4.0, unit_weight=1e4)
-        area = 16 / math.cos(math.radians(40))
-        self.assertAlmostEqual(np.linalg.norm(loads[upper, :3]) / (area * 2e4), 1, delta=1e-12)
-
-    def test_bodies_need_yade(self):
-        with self.assertRaisesRegex(AttributeError, "rock.bodies is for bodies of YADE"):
-            rock.bodies
-
-
-class Packings(unittest.TestCase):
-    def test_nothing_overlaps(self):
-        stones = [shapes.random_rock(seed) for seed in range(3)]
-        placed = packing.pack(packing.Box((0, 0, 0), (6, 6, 6)), stones, number=30, seed=5, progress=False)
-        self.assertEqual(len(placed), 30)
-        bodies = [one.shape.scaled(one.scale) for one in placed]
-        poses = [pp.Pose(np.add(one.position, pp.Pose((0, 0, 0), one.orientation).rotation @ shape.centroid),
-                         product(one.orientation, shape.orientation)) for one, shape in zip(placed, bodies)]
-        for one, body, pose in zip(placed, bodies, poses):
-            self.assertEqual(one.particle, body.particle)
-            np.testing.assert_allclose(one.pose.position, pose.position, rtol=0, atol=1e-12)
-            np.testing.assert_allclose(one.pose.rotation, pose.rotation, rtol=0, atol=1e-12)
-        for i in range(30):
-            for j in range(i):
-                self.assertFalse(pp.detect(bodies[i].particle, poses[i], bodies[j].particle, poses[j]).overlapping)
-
-
-def product(first, second):
-    """Of two quaternions w, x, y, z."""
-    (a, *u), (b, *v) = first, second
-    return (a * b - np.dot(u, v), *(a * np.array(v) + b * np.array(u) + np.cross(u, v)))
 
 
 class InPlane(unittest.TestCase):

@@ -1,42 +1,39 @@
-/* Every function and every status of potential_particles.h, as a C caller meets them; with the argument
- * "threads", only what many threads do at once, with "batch", only the threads of the library. */
+/* Every function and every status of potential_particles.h, as a C caller meets them; with arguments, only the parts
+ * that they name. */
 #include "check.h"
 #include "tests.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
+
+#define ENTRY(name) {#name, test_##name},
+static const struct {
+    const char *name;
+    void (*run)(void);
+} parts[] = {PARTS(ENTRY)};
+static const int count_of_parts = sizeof parts / sizeof *parts;
+
+static bool run(const char *name) {
+    for (int i = 0; i < count_of_parts; i++) {
+        if (strcmp(parts[i].name, name) != 0) continue;
+        parts[i].run();
+        return true;
+    }
+    fprintf(stderr, "%s: there is no such part\n", name);
+    return false;
+}
 
 int main(int count, char **arguments) {
     /* In order with what a library writes to stderr, should it panic. */
     setvbuf(stdout, NULL, _IOLBF, BUFSIZ);
-    if (count > 1 && strcmp(arguments[1], "threads") == 0) {
-        test_threads();
-        return check_report();
+    for (int i = 1; i < count; i++) {
+        if (!run(arguments[i])) return 2;
     }
-    if (count > 1 && strcmp(arguments[1], "batch") == 0) {
-        test_batch();
-        return check_report();
+    for (int i = 0; count == 1 && i < count_of_parts; i++) {
+        parts[i].run();
+        /* With other structs than the library has, nothing after the layout is safe. */
+        if (i == 0 && check_has_failed()) break;
     }
-    test_layout();
-    /* With other structs than the library has, nothing below is safe. */
-    if (check_has_failed()) return check_report();
-    test_status();
-    test_particle();
-    test_query();
-    test_surface();
-    test_definition();
-    test_pose();
-    test_settings();
-    test_area();
-    test_closest();
-    test_pair_state();
-    test_flat();
-    test_hostile();
-    test_threads();
-    test_batch();
-    test_in_plane();
-    test_patch();
-    test_derivatives();
-    test_builder();
     return check_report();
 }

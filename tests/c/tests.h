@@ -1,25 +1,31 @@
-/* One function per file, in the order in which main runs them. */
+/* The parts of the harness, in the order in which they run; CMakeLists.txt reads them here. Each is a function
+ * test_NAME, in the file of its name. */
 #ifndef TESTS_H
 #define TESTS_H
 
-void test_layout(void);
-void test_status(void);
-void test_particle(void);
-void test_query(void);
-void test_surface(void);
-void test_definition(void);
-void test_pose(void);
-void test_settings(void);
-void test_area(void);
-void test_closest(void);
-void test_pair_state(void);
-void test_flat(void);
-void test_hostile(void);
-void test_threads(void);
-void test_batch(void);
-void test_in_plane(void);
-void test_patch(void);
-void test_derivatives(void);
-void test_builder(void);
+#define PARTS(PART) \
+    PART(layout) \
+    PART(status) \
+    PART(particle) \
+    PART(query) \
+    PART(surface) \
+    PART(definition) \
+    PART(pose) \
+    PART(settings) \
+    PART(area) \
+    PART(closest) \
+    PART(pair_state) \
+    PART(flat) \
+    PART(hostile) \
+    PART(threads) \
+    PART(batch) \
+    PART(in_plane) \
+    PART(patch) \
+    PART(derivatives) \
+    PART(builder)
+
+#define DECLARED(name) void test_##name(void);
+PARTS(DECLARED)
+#undef DECLARED
 
 #endif

@@ -113,8 +113,7 @@ def run(stage, around, shuffle):
             status = process.wait()
             file.close()
             text = log.read_text(errors="replace")
-            counts = [[int(number or 0) for number in found] for found in stages.SUM.findall(text)]
-            good, bad = (sum(one[i] + one[i + 2] for one in counts) for i in (0, 1))
+            good, bad = stages.counted(text)
             passed, failed = passed + good, failed + (bad or int(status != 0 or not good))
             said += text
             log.unlink()

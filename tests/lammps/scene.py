@@ -112,13 +112,10 @@ _said = [""]
 
 
 def last_words():
-    return _said[0]
-
-
-def long(test):
-    """Marks a test that runs with --all alone."""
-    test.long = True
-    return test
+    """Of LAMMPS: from its last error on, or the last lines."""
+    last = [text.strip() for text in _said[0].splitlines() if text.strip()]
+    errors = [n for n, text in enumerate(last) if text.startswith("ERROR")]
+    return "\n".join(text[:300] for text in (last[errors[-1]:][:4] if errors else last[-4:]))
 
 
 def process(folder, command, seconds=SECONDS, **environment):

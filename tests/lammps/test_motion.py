@@ -2,10 +2,11 @@
 """Motion and contacts of bodies against the loop in Python, and against closed forms."""
 
 import numpy as np
+import pytest
 from loop import Loop, matrix
 from potential_particles.lammps.pictures import frames
 from potential_particles.lammps.shapes import principal
-from scene import (DENSITY, DT, FRICTION, SHEAR, STIFFNESS, TOP, lammps, long, process, random_bodies, run, shapes,
+from scene import (DENSITY, DT, FRICTION, SHEAR, STIFFNESS, TOP, lammps, process, random_bodies, run, shapes,
                    state, thermo)
 
 
@@ -45,7 +46,7 @@ def test_block_slides_on_block(folder):
     assert np.linalg.norm(loop.w[0]) > 1e-3  # it was turned by friction
 
 
-@long
+@pytest.mark.long
 def test_pile_of_36(folder):
     """36 bodies of two shapes fall into each other and on a floor."""
     bodies = random_bodies(36, 0.115, seed=3, low=(-0.12, -0.12, 0.12))

@@ -2,10 +2,11 @@
 """Contacts by patch, with the law of joints: closed forms, YADE, several ranks, restarts, bonds, and what is refused.
 """
 import numpy as np
+import pytest
 from potential_particles.lammps import polyhedron, write_shapes
 from potential_particles.lammps.pictures import frames
 from test_walls import floor as tiles, write_stl
-from scene import DEFAULTS, SCRIPT, TOP, lammps, long, process, random_bodies, refused, run, shapes, state, thermo
+from scene import DEFAULTS, SCRIPT, TOP, lammps, process, random_bodies, refused, run, shapes, state, thermo
 from test_motion import YADE
 from test_ranks import AGAIN
 
@@ -208,7 +209,7 @@ def test_patches_on_ranks(folder):
     on_ranks(folder, (1, "1 1 1"), (2, "2 1 1"))
 
 
-@long
+@pytest.mark.long
 def test_patches_on_four_ranks(folder):
     on_ranks(folder, (1, "1 1 1"), (4, "2 2 1"))
 
@@ -286,7 +287,7 @@ def test_same_blocks_in_yade(folder):
     assert errors_of_blocks(folder, 1)[0] < 1e-7
 
 
-@long
+@pytest.mark.long
 def test_same_blocks_in_yade_to_the_order_of_the_step(folder):
     errors = errors_of_blocks(folder, 2)
     assert errors[1] <= 0.6 * errors[0]

@@ -6,7 +6,8 @@ import subprocess
 import time
 
 import numpy as np
-from scene import (DEFAULTS, FRICTION, LAMMPS, SCRIPT, SHEAR, STIFFNESS, lammps, long, random_bodies, run, shapes,
+import pytest
+from scene import (DEFAULTS, FRICTION, LAMMPS, SCRIPT, SHEAR, STIFFNESS, lammps, random_bodies, run, shapes,
                    state, thermo, write)
 
 from potential_particles.lammps.pictures import frames
@@ -38,7 +39,7 @@ def test_ranks_agree(folder):
                                atol=1e-10), (column, table[column], ends[0][1][column])
 
 
-@long
+@pytest.mark.long
 def test_four_ranks(folder):
     """Few steps, since four ranks wait for each other where there are two cores: forces over edges between ranks."""
     bodies = [(b[0], np.asarray(b[1]) * 0.8, *b[2:])

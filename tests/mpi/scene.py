@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One run of a small scene on the ranks that mpirun started; tests/mpi/run.py starts it and judges the results.
+"""One run of a small scene on the ranks that mpirun started; tests/mpi/test_mpi.py starts it and judges the results.
 
 The case is the first argument, a folder the second. Cubes lie on a floor and on each other, slide against each other in
 three rows, and are pushed together along x: there are contacts across the borders of workers at all times, but too
@@ -11,7 +11,7 @@ import resource
 import sys
 from pathlib import Path
 
-# The folder of this script is not on Python's path in YADE; that of harness.py is given by run.py.
+# The folder of this script is not on Python's path in YADE; that of harness.py is given by test_mpi.py.
 import numpy as np
 import potential_particles  # noqa: F401 (a saved scene holds its classes)
 import yade
@@ -184,7 +184,7 @@ def recorders():
 
 
 def say_pid():
-    """For run.py, which reads the file as soon as it is there."""
+    """For test_mpi.py, which reads the file as soon as it is there."""
     unfinished = FOLDER / f"part{mpi.rank()}"
     unfinished.write_text(str(os.getpid()))
     unfinished.rename(FOLDER / f"pid{mpi.rank()}")

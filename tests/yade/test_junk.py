@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Whatever a script sets, in whatever order: an exception of Python or a particle that works. To repeat it
-# with another seed, or more of it: `SEED=12 JUNK=20000 tests/yade/run.py -v junk`.
+# with another seed, or more of it: `SEED=12 JUNK=20000 pytest -v tests/yade/test_junk.py`.
 import copy
 import math
 import os

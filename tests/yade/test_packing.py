@@ -1,15 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# A packing becomes bodies that do not touch; boundaries are watertight meshes of facets; bad input is refused.
+# A packing becomes bodies that do not touch; boundaries are watertight meshes of facets. Seeds, Ctrl-C, what is
+# refused: python/tests/test_packing.py.
 import contextlib
 import io
 import math
-import os
-import signal
 from collections import Counter
 
 import numpy as np
 import potential_particles
-from potential_particles import add_packing, boundaries, pack, packing, progress, shapes
+from potential_particles import add_packing, boundaries, pack, packing, shapes
 from harness import *
 
 check = Checks()
@@ -69,64 +68,6 @@ placements, _ = quiet(box, rocks, sizes=1.0, number=50, dense=True)
 add_packing([one._replace(position=(one.position[0], one.position[1], one.position[2] * 0.97)) for one in placements],
             0)
 check.true(touching()[1] > 25, "squeezed, they touch")
-
-# The same seed, the same packing; another seed, another.
-same = [
-    quiet(box, rocks, number=30, dense=True, seed=seed, threads=threads)[0]
-    for seed, threads in [(1, 1), (1, 2), (2, 1)]
-]
-check.equal(same[0], same[1], "threads make no difference")
-check.true(same[0] != same[2], "seeds do")
-
-# Too many are asked for: what fits comes back, and is said.
-few, said = quiet(packing.Box((0, 0, 0), (2, 2, 2)), shapes.sphere(0.5), number=100)
-check.true(0 < len(few) < 8, f"{len(few)} balls")
-check.true(f"packed {len(few)} of 100 bodies" in said and "no more fit" in said, said)
-quiet_one, said = quiet(box, rocks, number=3, progress=False)
-check.equal((len(quiet_one), said), (3, ""), "without progress nothing is printed")
-
-# Ctrl-C keeps what has its place, and is Python's own again afterwards.
-before = signal.getsignal(signal.SIGINT)
-original = progress.Bar.reached
-
-
-def interrupt(self, count):
-    if count >= 20:
-        os.kill(os.getpid(), signal.SIGINT)
-
-
-progress.Bar.reached = interrupt
-some, said = quiet(box, rocks, number=500, dense=True)
-progress.Bar.reached = original
-check.true(20 <= len(some) < 100 and "stopped by Ctrl-C" in said, f"{len(some)} bodies; {said}")
-check.equal(signal.getsignal(signal.SIGINT), before, "the handler of Ctrl-C")
-
-# What is raised while bodies are handed over comes out.
-progress.Bar.reached = lambda self, count: 1 / 0
-check.raises(ZeroDivisionError, lambda: quiet(box, rocks, number=5), "an error in between")
-progress.Bar.reached = original
-
-O.reset()
-for arguments, keywords, says in [
-    ((box, []), dict(number=5), "shapes is empty"),
-    ((box, [yade.Sphere(radius=1)]), dict(number=5), "not a Shape"),
-    (((1, 2, 3), rocks), dict(number=5), "not a packing.Box"),
-    ((box, rocks), {}, "say how many"),
-    ((box, rocks), dict(number=0), "number=0"),
-    ((box, rocks), dict(number=5, seed=-1), "seed=-1"),
-    ((box, rocks), dict(number=5, margin=-1), "margin=-1"),
-    ((box, rocks), dict(number=5, sizes=-1), "sizes=-1"),
-    ((box, rocks), dict(number=5, sizes=[]), "sizes is empty"),
-    ((box, rocks), dict(number=5, sizes=[(1, 0.5), (2, 0.4)]), "add up to 0.9"),
-    ((box, rocks), dict(number=5, sizes=[(1, 0.5), (-2, 0.5)]), "size -2.0 (entry 1)"),
-    ((box, rocks), dict(number=5, sizes=[(1, 0), (2, 0.4)], shares="passing"), "grading curve"),
-    ((box, rocks), dict(number=5, sizes=[(1, 1)], shares="weight"), "shares='weight'"),
-    ((packing.Box((0, 0, 0), (1, 0, 1)), rocks), dict(number=5), "no volume"),
-    ((packing.Box((0, 0, 0), (0.1, 1, 1)), rocks), dict(number=5), "no body fits"),
-    ((packing.Cylinder((0, 0, 0), -1, 1), rocks), dict(number=5), "radius=-1"),
-]:
-    check.raises(ValueError, lambda: quiet(*arguments, **keywords), f"{keywords}", says)
-check.equal(len(O.bodies), 0, "nothing is added by what is refused")
 
 
 def mesh(bodies):

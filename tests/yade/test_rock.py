@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Rock masses: blocks and their bodies, files, water, excavation. Key blocks: test_key_blocks.py.
+# Rock masses in YADE: blocks as bodies, joints as surfaces, loads, excavation. Key blocks: test_key_blocks.py; slicing,
+# files, water: python/tests/test_rock.py.
 import os
 import tempfile
 
@@ -31,8 +32,7 @@ def start(**material):
     ]
 
 
-# Slicing: a slope of which everything is known by sums. The volume of a box less the prism before its face is a closed
-# form.
+# A slope, a box less the prism before its face.
 slope = Domain.box((0, 0, 0), (20, 10, 8)).below((18, 0, 0), 60, 90)
 sets = [
     rock.JointSet(35, 90, 2.0, seed=1),
@@ -42,56 +42,7 @@ sets = [
 ]
 mass = rock.slice(slope, sets, progress=False)
 volume = 10 * (20 * 8 - 2 * 8 - 0.5 * 8 * 8 / math.tan(math.radians(60)))
-check.close(mass.volume / volume, 1.0, 1e-12, "the volumes of the blocks sum to that of the domain")
-check.true(len(mass) > 200 and mass.complete and "blocks" in repr(mass), f"{mass!r}")
-sums = np.zeros(len(mass.faces))
-for side in (0, 1):
-    np.add.at(sums, mass.partners["faces"][:, side].astype(int), mass.partners["area"])
-of_joints = mass.faces["of"] == 1
-check.close(
-    np.abs(sums - mass.faces["area"])[of_joints].max(), 0.0, 1e-8, "the areas that a face shares sum to its own")
-check.true(
-    set(mass.set_of_face[of_joints]) == {0, 1, 2, 3} and set(mass.set_of_face[~of_joints]) == {-1},
-    "faces know their set")
-block = mass[17]
-check.close(
-    np.abs(block.planes[:, :3] @ block.corners.T - block.planes[:, 3:]).min(1).max(), 0.0, 1e-12, "planes hold corners")
-check.close(sum(mass[i].volume for i in range(len(mass))), mass.volume, 1e-9, "blocks one by one")
-outer = sum(mass.faces["area"][mass.faces_on(Domain.TOP)])
-check.close(outer, 10 * (18 - 8 / math.tan(math.radians(60))), 1e-9, "area of the top")
-check.equal(rock.slice(slope, sets, progress=False).blocks.tobytes(), mass.blocks.tobytes(), "the same seeds")
 few = rock.slice(slope, sets[:3], least_volume=2.0, least_thickness=0.1, progress=False)
-check.true(few.too_small > 0 and few.blocks["volume"].min() >= 2.0 and abs(few.volume / volume - 1) < 1e-12,
-           "small parts stay with their block")
-check.equal(list(rock.slice(cube, [rock.joint(
-    (0, 0, 0), 0, 0), rock.joint((0, 0, 5), 0, 0)], progress=False).missing), [1], "a plane that misses is told")
-by_one, by_three = (rock.slice(slope, sets, threads=threads, progress=False) for threads in (1, 3))
-check.true(by_one.blocks.tobytes() == by_three.blocks.tobytes() and by_one.faces.tobytes() == by_three.faces.tobytes(),
-           "threads change nothing")
-# A rectangle that ends before the middle cuts the half of a cube that it reaches, a turned one that reaches over it
-# both.
-halves = rock.joint((0, 0, 0), 90, 90)
-for direction, blocks in ((90, 3), (0, 4)):
-    ended = rock.rectangle((0.5, 0, 0), 0, direction, length=1.2, width=0.9)
-    check.equal(len(rock.slice(cube, [halves, ended], progress=False)), blocks, f"a rectangle towards {direction}")
-within = rock.slice(cube, [rock.rectangle((0.2, 0.1, 0), 30, 90, 0.5, 0.7)], progress=False).faces
-check.close(
-    np.abs(np.sort(within["jointed_area"])[-3:] - (0, 0.35, 0.35)).max(), 0.0, 1e-12,
-    "the area of its extent on both faces that it made")
-ended = rock.rectangle((1, 2, 3), 30, 90, 4, 2)
-down = np.array([math.cos(math.radians(30)), 0, -math.sin(math.radians(30))])
-check.close(
-    np.abs(np.abs((np.array(ended.outline) - (1, 2, 3)) @ down) - 1).max(), 0.0, 1e-12, "its width down the dip")
-check.close(np.dot(ended.normal, down), 0.0, 1e-12, "its plane")
-for corners, text in (([(0, 0, 0), (1, 0, 0)], "three or more"), ([
-    (0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0.1)
-], "lie in one plane"), ([(0, 0, 0), (2, 0, 0), (0.5, 0.5, 0), (0, 2, 0)], "convex polygon")):
-    check.raises(ValueError, lambda: rock.polygon(corners), f"corners that {text}", text)
-check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.11, progress=False)), 1, "least_width")
-check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], largest_aspect=19, progress=False)), 1,
-            "largest_aspect")
-check.equal(len(rock.slice(cube, [rock.joint((0, 0, 0.9), 0, 0)], least_width=0.09, largest_aspect=21, progress=False)),
-            2, "and neither")
 # Joints as surfaces: one block is lifted by a millimetre, shifted by two across its base, and turned about the normal
 # there.
 start()
@@ -114,113 +65,14 @@ check.true(
     "its surface for ParaView")
 O.bodies.erase(int(ids[0]))
 check.equal(len(rock.joint_table(two, ids)), 0, "a block that is gone")
-# Regions: a tunnel, which is a prism, and what a domain leaves out.
-tunnel = Domain.cylinder((10, -1, 3), (10, 11, 3), 1.5, sides=8)
-section = 8 * 1.5**2 * math.tan(math.pi / 8)
-dug = rock.slice(slope, sets, regions=[tunnel], progress=False)
-check.close(dug.blocks["volume"][dug.inside(0)].sum() / (10 * section), 1.0, 1e-12, "volume of a tunnel")
-check.close(dug.volume / volume, 1.0, 1e-12, "and of all")
-left = rock.slice(slope.without(tunnel), sets, progress=False)
-check.close(left.volume / (volume - 10 * section), 1.0, 1e-12, "a domain that leaves it out")
-check.true(len(np.unique(left.pieces)) < len(left) and set(left.blocks["region"]) == {-1}, "pieces of a block stay one")
-check.equal(len(np.unique(mass.pieces)), len(mass), "without regions each block is a piece")
-# A block that the tunnel cuts through from side to side is two.
-halved = rock.slice(cube.without(Domain.box((-0.2, -2, -2), (0.2, 2, 2))), [], progress=False)
-check.true(len(halved) == 2 and len(set(halved.pieces)) == 2, "a block that is parted for good")
 notched = rock.slice(cube.without(Domain.box((-0.2, -2, 0), (0.2, 2, 2))), [], progress=False)
-check.true(len(notched) == 3 and len(set(notched.pieces)) == 1, "one that is notched stays one")
 
-# Bad input is one sentence.
-for text, action in (("dip=95", lambda: rock.JointSet(95, 0, 1)), ("spacing=0", lambda: rock.JointSet(5, 0, 0)),
-                     ("fisher=-1", lambda: rock.JointSet(5, 0, 1, fisher=-1)), ("radius=0", lambda: rock.joint(
-                         (0, 0, 0), 5, 0, 0)), ("must be finite", lambda: rock.joint(
-                             (0, 0, math.nan), 5, 0)), ("the domain is open",
-                                                        lambda: rock.slice(Domain([(0, 0, 1, 1)]), sets)),
-                     ("the domain is empty", lambda: rock.slice(cube.below(
-                         (0, 0, -5), 0, 0), sets)), ("more than most_blocks = 7",
-                                                     lambda: rock.slice(slope, sets, most_blocks=7)),
-                     ("not a rock.Domain",
-                      lambda: rock.slice([(0, 0, 1, 1)], sets)), ("joints[0] holds float",
-                                                                  lambda: rock.slice(cube, [[1.5]])),
-                     ("least_volume=-1",
-                      lambda: rock.slice(cube, [], least_volume=-1)), ("must lie below", lambda: Domain.box(
-                          (0, 0, 0), (1, 0, 1))), ("a region is list", lambda: rock.slice(cube, [], regions=[[1]])),
-                     ("at most 10 million joints",
-                      lambda: rock.slice(cube, [rock.JointSet(5, 0, 1e-8)])), ("rounding=0.7",
-                                                                               lambda: rock.bodies(mass, rounding=0.7)),
-                     ("fixed must be numbers from 0",
-                      lambda: rock.bodies(mass, fixed=[99999])), ("friction has no key None",
-                                                                  lambda: rock.key_blocks(mass, (), friction={0: 0.3})),
-                     ("friction='bedding'", lambda: rock.key_blocks(mass, (), friction={"bedding": 0.3, None: 0.3})),
-                     ("free must be numbers of planes",
-                      lambda: rock.key_blocks(mass, [True, False])), ("free holds 77",
-                                                                      lambda: rock.key_blocks(mass, [77])),
-                     ("loads must be", lambda: rock.key_blocks(mass, (), loads=np.full(
-                         (len(mass), 6), math.nan))), ("removed must be numbers",
-                                                       lambda: rock.key_blocks(mass, (), removed=[-1])),
-                     ("removed must be numbers",
-                      lambda: rock.key_blocks(mass, (), removed=[1.7])), ("loads must be (2, 6)",
-                                                                          lambda: rock.apply_loads([0, 1], [[0] * 6])),
-                     ("array of bool", lambda: rock.excavate(mass.inside(0))), ("slow=-1",
-                                                                                lambda: rock.excavate([], slow=-1)),
-                     ("joints is NoneType", lambda: rock.slice(cube, None)), ("joints[0] is int",
-                                                                              lambda: rock.slice(cube, [3])),
-                     ("the domain has the planes 0 to",
-                      lambda: mass.on_domain(99)), ("the domain is empty",
-                                                    lambda: rock.slice(cube, [], regions=Domain([(0, 0, 1, 0),
-                                                                                                 (0, 0, -1, -1)])))):
+for text, action in (("rounding=0.7", lambda: rock.bodies(mass, rounding=0.7)),
+                     ("fixed must be numbers from 0", lambda: rock.bodies(mass, fixed=[99999])),
+                     ("loads must be (2, 6)", lambda: rock.apply_loads([0, 1], [[0] * 6])),
+                     ("array of bool", lambda: rock.excavate(mass.on_domain(0))),
+                     ("slow=-1", lambda: rock.excavate([], slow=-1))):
     check.raises(ValueError, action, text, text)
-
-# Files.
-Path("dfn.csv").write_text("x,y,z,dip,dip direction,radius\n# by hand\n0,0,0,30,90,inf\n\n1, 2, 3, 45, 200, 0.5\n")
-read = rock.read_dfn("dfn.csv")
-check.equal(read, [rock.joint((0, 0, 0), 30, 90), rock.joint((1, 2, 3), 45, 200, 0.5)], "a fracture network")
-Path("blanks.txt").write_text("x y z dip direction radius\n0 0 0 30 90 inf\n 1\t2  3 45 200 0.5 \n")
-check.equal(rock.read_dfn("blanks.txt"), read, "with blanks between its numbers")
-Path("blanks.txt").write_text("0 0 0 30 90 inf\n1 2 3 45 200 0.5\n")
-check.equal(rock.read_dfn("blanks.txt"), read, "and without names")
-Path("bad.csv").write_text("0,0,0,30,90,1\n0,0,0,thirty,90,1\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a word", "bad.csv, line 2, column 4: 'thirty'")
-Path("bad.csv").write_text("0,0,0,30,90,1\n0,0,0,30,90\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a short line", "bad.csv, line 2: 5 numbers, and 6")
-Path("bad.csv").write_text("0,0,0,95,90,1\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a dip", "bad.csv, line 1: dip=95")
-Path("bad.csv").write_text("1,2,3,3O,90,5\n1,2,3,30,90,5\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "a first row with a word in it is no header",
-             "bad.csv, line 1, column 4: '3O'")
-Path("bad.csv").write_text("1,inf,3,30,90,5\n")
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "an infinite place",
-             "bad.csv, line 1, column 2: 'inf' is no finite")
-Path("bad.csv").write_bytes("1,2,3,30,90,5 # Kluft\xfc\n".encode("latin-1", "replace"))
-check.raises(ValueError, lambda: rock.read_dfn("bad.csv"), "no UTF-8", "bad.csv is no text in UTF-8")
-Path("empty.csv").write_text("x,y\n")
-check.raises(ValueError, lambda: rock.read_dfn("empty.csv"), "no rows", "no row of numbers")
-# BlockGen's: x north, y east, z downwards; a plane that dips to the east descends, with z downwards, along y.
-Path("joints.csv").write_text("dip;dipdir;x;y;z;a;b;phi_b;phi_r;\n30;90;1;2;3;4;5;30;25;\n")
-one, = rock.read_blockgen("joints.csv", "probabilistic")
-check.close(abs(np.dot(one.normal, (0, math.cos(math.radians(30)), math.sin(math.radians(30))))), 0.0, 1e-15,
-            "the plane of BlockGen descends along its dip")
-corners = np.array(one.outline) - (1, 2, 3)
-check.close(Vector3(*one.point), Vector3(1, 2, 3), 1e-12, "its place")
-# With a dip direction of 90 degrees the strike is north, x; the half lengths are those along it and down the dip.
-check.close(np.abs(np.abs(corners[:, 0]) - 4).max(), 0.0, 1e-12, "its length along the strike")
-check.close(np.abs(np.hypot(corners[:, 1], corners[:, 2]) - 5).max(), 0.0, 1e-12, "and down the dip")
-Path("planes.csv").write_text("dip;dipdir;spacing;phi\n0;0;0.5;30;\n")
-check.equal([round(one.point[2], 12) for one in rock.read_blockgen("planes.csv", "persistent", size=2)],
-            [-1, -0.5, 0, 0.5, 1], "planes of a spacing")
-check.raises(ValueError, lambda: rock.read_blockgen("planes.csv", "persistent"), "no size", "size is missing")
-check.equal(len(rock.slice(cube, rock.read_blockgen("planes.csv", "persistent", size=2), progress=False)), 4,
-            "which cut")
-
-# Where four sets meet in the middle of the domain faces have sides of no length: nothing lies open inside all the same.
-for seed in range(6):
-    random = np.random.default_rng(seed)
-    many = [rock.JointSet(random.uniform(0, 90), random.uniform(0, 360), 0.9) for _ in range(4)]
-    modes = {
-        one.mode
-        for one in rock.key_blocks(rock.slice(Domain.box((0, 0, 0), (2, 2, 2)), many, progress=False), [])
-    }
-    check.equal(modes, {"inner"}, f"sets through a point, seed {seed}")
 
 # Bodies: where the blocks are, with their mass, and the inertia that the library finds for the shape by itself.
 start()
@@ -374,18 +226,7 @@ check.equal({round(i.phys.tangensOfFrictionAngle, 9)
              for i in O.interactions if i.isReal and {i.id1, i.id2} in columns}, {round(math.tan(0.35), 9)},
             "after loading")
 
-# Loads: water all around a block is buoyancy (Archimedes), half of it where the water reaches half way up a cube; a
-# surcharge on the top.
-water = rock.water_pressure(mass, np.ones(len(mass.faces), bool), level=20.0)
-check.close(
-    np.abs(water[:, :3] - np.outer(9810 * mass.blocks["volume"], (0, 0, 1))).max(), 0.0, 1e-6 * 9810, "buoyancy")
-check.close(np.abs(water[:, 3:]).max(), 0.0, 1e-6 * 9810, "has no torque about the centroid")
-one = rock.slice(cube, [], progress=False)
-side = rock.water_pressure(one, one.faces_on(Domain.EAST), level=0.5)
-check.close(side[0, 0], -9810 * 2 * 1.5**2 / 2, 1e-9, "hydrostatic force on a wall")
-check.close(side[0, 4], 9810 * 2.25 * 0.5, 1e-9, "at a third of the depth: its torque")
-load = rock.face_pressure(mass, mass.faces_on(Domain.TOP), 1e4)
-check.close(load[:, 2].sum(), -1e4 * outer, 1e-6, "a surcharge")
+# Loads on a clump of pieces.
 start()
 ids = rock.bodies(notched, rounding=0.01)
 rock.apply_loads(ids, rock.face_pressure(notched, notched.faces_on(Domain.EAST), 100.0))
@@ -411,23 +252,4 @@ for text, given in (("ids holds 999: there is no such body", [ids[0], 999]), ("i
                     ("ids holds 0.5: an id is a whole number", [0.5])):
     check.raises(ValueError, lambda: rock.excavate(given), text, text)
 check.equal(len([body for body in O.bodies if body]), 2, "and nothing was taken out")
-
-# Numbers that nothing can be made of, and loops that would not end.
-for spacing, words in (("1e-9", "spacing=1e-09 over size=10 makes 1e+10 joints"), ("1e-320", "must be at least 1e-50")):
-    with open("many.csv", "w") as file:
-        file.write(f"30; 90; {spacing}\n")
-    check.raises(ValueError, lambda: rock.read_blockgen("many.csv", "persistent", size=10), spacing, words)
-    check.raises(ValueError, lambda: rock.read_blockgen("many.csv", "persistent", size=10), spacing, "many.csv, line 1")
-small = rock.Domain.box((0, 0, 0), (1, 1, 1))
-for name, make, words in [
-    ("joints of a set", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-6)], progress=False),
-     "no more than 1000000 are made"),
-    ("discs", lambda: rock.slice(small, [rock.JointSet(30, 90, 1e-3, radius=1e-3)], progress=False), "10 million"),
-    ("a large box", lambda: rock.Domain.box((-1e150, ) * 3, (1e150, ) * 3), "lower=(-1e+150"),
-    ("planes far away",
-     lambda: rock.slice(rock.Domain([(*sign * axis, 1e150) for axis in np.eye(3)
-                                     for sign in (1, -1)]), [], progress=False), "extent of the domain = 1"),
-    ("sides", lambda: rock.Domain.cylinder((0, 0, 0), (0, 0, 1), 1, sides=10**12), "sides=1000000000000"),
-]:
-    check.raises(ValueError, make, name, words)
 check.finish()

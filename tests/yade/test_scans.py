@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Surfaces of many facets as shapes of few planes, voxels as bodies in place, surfaces that are not convex as clumps:
-# volumes and places against those given.
+# Voxels as bodies in place, surfaces that are not convex as clumps: volumes and places against those given. Scans as
+# shapes: python/tests/test_scans.py.
 import os
 import sys
 import tempfile
@@ -12,7 +12,6 @@ import potential_particles
 import yade
 from harness import *
 from potential_particles import shapes
-from scipy.spatial import ConvexHull
 
 check = Checks()
 folder = tempfile.mkdtemp()
@@ -34,85 +33,6 @@ def write(points, triangles, name):
         file.writelines("f %d %d %d\n" % tuple(i + 1 for i in t) for t in triangles)
     return path
 
-
-def surface_distance(shape, points):
-    """How far points lie from the surface of a shape, by bisection along its rays, over the diameter of the ball of its
-    volume: never less than the true one.
-    """
-    w, x, y, z = shape.orientation
-    back = Quaternion(w, x, y, z).conjugate().toRotationMatrix()
-    local = (points - np.array(shape.centroid)) @ np.array([[back[i, j] for j in range(3)] for i in range(3)]).T
-    planes, low, high = np.array(shape.planes), np.zeros(len(points)), np.full(len(points), 10.0)
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        at = middle[:, None] * local
-        s = (1 - shape.k) / shape.r**2 * (np.maximum(at @ planes[:, :3].T - planes[:, 3], 0.0)**
-                                          2).sum(1) + shape.k / shape.R**2 * (at**2).sum(1)
-        low, high = np.where(s < 1, middle, low), np.where(s < 1, high, middle)
-    return np.abs(1 - low) * np.linalg.norm(local, axis=1) / shape.equivalent_diameter
-
-
-# A smooth scan: an ellipsoid of 1,000 points, far from the origin.
-random = np.random.default_rng(0)
-points = random.normal(size=(1000, 3))
-points = points / np.linalg.norm(points, axis=1)[:, None] * (1.0, 0.8, 0.6) + (30, -20, 10)
-hull = ConvexHull(points)
-middle = hull.points[hull.simplices].mean(1)
-outward = ((np.cross(points[hull.simplices[:, 1]] - points[hull.simplices[:, 0]],
-                     points[hull.simplices[:, 2]] - points[hull.simplices[:, 0]]) * (middle - points.mean(0))).sum(1)
-           > 0)
-triangles = np.where(outward[:, None], hull.simplices, hull.simplices[:, ::-1])
-file = write(points, triangles, "scan")
-errors = []
-for planes in 12, 30, 100:
-    shape, said = told(lambda: shapes.from_mesh(file, planes=planes))
-    check.true(len(shape.planes) <= planes and not said, f"at most {planes} planes, without a warning: {said}")
-    check.close(potential_particles.conic_particle(shape).massProperties(1e-6)[0] / hull.volume, 1.0, 1e-5, f"{planes} planes keep the volume")
-    check.close(shape.fit.volume / hull.volume, 1.0, 1e-6, "which is told")
-    check.close(Vector3(*shape.centroid), Vector3(30, -20, 10), 0.03, "where the scan stands")
-    found = surface_distance(shape, np.concatenate([points, middle]))
-    check.true(0.5 * found.max() < shape.fit.largest <= found.max() * 1.001,
-               f"the error that is told: {shape.fit.largest}, along rays {found.max()}")
-    check.true(0.5 < shape.fit.mean / np.sqrt((found**2).mean()) <= 1.001, "and in the mean")
-    check.true(f"{shape.fit.largest:.2g} of its diameter" in repr(shape) and "\n" not in repr(shape),
-               "its line says so")
-    errors.append(shape.fit.mean)
-check.true(errors[0] > 1.5 * errors[1] > 1.5 * errors[2], f"more planes come nearer: {errors}")
-check.close(shape.scaled(2.0).fit.volume, 8 * shape.fit.volume, 1e-9, "scaled")
-exact = shapes.from_mesh(file, error=0.03)
-check.true(exact.fit.largest <= 0.03 and len(exact.planes) < 40, f"a given error: {exact}")
-check.raises(ValueError, lambda: shapes.from_mesh(file, error=1e-7), "an error that is not reached",
-             "error=1e-07 is not reached")
-check.raises(ValueError, lambda: shapes.from_mesh(file, error=0.001, planes=20), "nor with so few planes",
-             "up to 20 planes")
-check.raises(ValueError, lambda: shapes.from_mesh(file, planes=3), "three planes", "planes=3")
-given = shapes.from_vertices(points, planes=30, rounding=0.05)
-check.close(given.volume / hull.volume, 1.0, 1e-4, "a given r keeps the volume, too")
-check.close(given.r / shapes.from_vertices(points, planes=30, rounding=0.1).r, 0.5, 0.05, "r is the one that was given")
-
-# All faces: r gives way to the volume, and says so where it may not.
-shape, said = told(lambda: shapes.from_mesh(file))
-check.true(
-    len(shape.planes) <= 60 and len(said) == 1 and "60 planes in the place of" in said[0]
-    and f"{shape.fit.largest:.2g}" in said[0], f"by default few: {said}")
-check.close(shape.volume / hull.volume, 1.0, 1e-4, "which keep the volume")
-shape, said = told(lambda: shapes.from_mesh(file, planes="all"))
-check.true(len(shape.planes) > 1900, f"all of them: {len(shape.planes)}")
-check.true(0.985 < shape.volume / hull.volume < 0.995 and not said,
-           f"all faces, r chosen: {shape.volume / hull.volume}, {said}")
-shape, said = told(lambda: shapes.from_mesh(file, rounding=0.05, planes="all"))
-check.true(shape.volume / hull.volume > 0.98 and not said, f"r = 0.05: {shape.volume / hull.volume}, {said}")
-corners = np.array([(x, y, z) for x in (0, 2) for y in (0, 2) for z in (0, 2)], float)
-faces = [(0, 1, 3), (0, 3, 2), (4, 7, 5), (4, 6, 7), (0, 5, 1), (0, 4, 5), (2, 3, 7), (2, 7, 6), (0, 2, 6), (0, 6, 4),
-         (1, 5, 7), (1, 7, 3)]
-cube, said = told(lambda: shapes.from_mesh(write(corners, faces, "cube")))
-check.equal((len(cube.planes), said), (6, []), "a cube has its six faces")
-check.close(cube.r, 0.1, 1e-9, "and the default r, which costs less than a hundredth")
-shape, said = told(lambda: shapes.from_mesh(os.path.join(folder, "cube.obj"), rounding=0.2))
-check.true(
-    len(said) == 1 and "% less volume than the surface" in said[0] and f"{shape.r:.3g}" in said[0], f"r = 0.2: {said}")
-few = shapes.from_vertices(corners, planes=30)
-check.true(len(few.planes) == 6 and few.fit.largest < 0.02, f"no more planes than faces: {few}")
 
 # A solid that is not convex, an L.
 outline = np.array([(0, 0), (2, 0), (2, 0.5), (0.5, 0.5), (0.5, 1.5), (0, 1.5)], float)
@@ -211,7 +131,7 @@ check.equal([one.shape.volume for one in again],
             [one.shape.volume for one in shapes.from_voxels(image, EDGE, 20, progress=False)], "from a .tif file")
 for bad, words in ((np.zeros((3, 3, 3), int), "no grain"), (np.zeros((3, 3), int), "three axes"), (np.full(
     (3, 3, 3), 0.5), "whole numbers"), (np.full(
-        (3, 3, 3), -1), "range from -1"), (path + "f", "is no file"), (file, "cannot be read as .tif")):
+        (3, 3, 3), -1), "range from -1"), (path + "f", "is no file"), (ell, "cannot be read as .tif")):
     check.raises(ValueError, lambda: shapes.from_voxels(bad), f"{words}", words)
 
 

@@ -1,30 +1,27 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Runs every code block of README.md and of the pages under docs/.
-
-    tests/guide/run.py [PAGE ...]
 
 Python blocks of a page run one after the other in one YADE, C blocks are compiled and run, cmake blocks build an
 example against an installation in a folder of its own. Of a shell block each "make" must be a target and each script
 must be there. Rust blocks are doctests of the library; here it is checked that their page is one. Python blocks of
-docs/wheel.md, docs/derivatives.md and docs/equilibrium.md run in the tests of the wheel. Other languages, and blocks
+docs/wheel.md, docs/derivatives.md and docs/equilibrium.md run in python/tests/test_blocks.py. Other languages, and blocks
 that name none, fail.
 """
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
+import pytest
 from blocks import blocks
 
 TOP = Path(__file__).resolve().parents[2]
 TARGET = Path(os.environ.get("CARGO_TARGET_DIR", TOP / "target")).resolve()
 RELEASE = TARGET / "release"
 SECONDS = 600
-# Its Python blocks run where there is no YADE: python/tests/run.py.
-WHEEL = [Path("docs/wheel.md"), Path("docs/derivatives.md"), Path("docs/equilibrium.md")]
+# Their Python blocks run where there is no YADE: python/tests/test_blocks.py.
+WHEEL = ("wheel.md", "derivatives.md", "equilibrium.md")
 # In YADE, and past its exit, which waits for threads that a block may have started. Names are those of scripts: global.
 PAGE = """import os, sys, traceback
 for _place, _source in %r:
@@ -97,7 +94,7 @@ def check_shell(block):
 
 
 def is_doctest(block):
-    page = f'include_str!("../{block.page}")'
+    page = f'include_str!("../{block.page.relative_to(TOP)}")'
     return None if page in (TOP / "src/lib.rs").read_text() else f"src/lib.rs has no {page}"
 
 
@@ -117,32 +114,21 @@ def run_block(block):
         }.get(block.language, lambda: f"language {block.language!r}: not known here")()
 
 
-def main():
-    pages = [Path(one) for one in sys.argv[1:]
-             ] or [Path("README.md"), *sorted(path.relative_to(TOP) for path in (TOP / "docs").glob("*.md"))]
-    os.chdir(TOP)
-    passed = failed = 0
-    for page in pages:
-        found = blocks(page)
-        of_wheel = page in WHEEL
-        scripts = [block for block in found if block.language == "python" and not block.tested_by and not of_wheel]
-        results = {}
-        if scripts:
-            with tempfile.TemporaryDirectory() as scratch:
-                # Copies, since a block may write a file of the same name.
-                shutil.copytree(TOP / "examples/data", scratch, dirs_exist_ok=True)
-                results = run_python(scripts, scratch)
-        for block in found:
-            said = (
-                None
-                if of_wheel and block.language == "python"
-                else results[block.place] if block.place in results else run_block(block)
-            )
-            passed, failed = passed + (said is None), failed + (said is not None)
-            if said is not None:
-                print(f"{block.place}: {block.language or 'a block without a language'} fails\n{said}")
-    print(f"{passed} passed, {failed} failed")
-    sys.exit(1 if failed else 0)
+def runs_here(block):
+    return block.tested_by or block.language != "python" or block.page.name not in WHEEL
 
 
-main()
+PAGES = {page: list(filter(runs_here, blocks(page))) for page in [TOP / "README.md", *sorted((TOP / "docs").glob("*.md"))]}
+
+
+@pytest.mark.parametrize("found", [pytest.param(found, id=page.name) for page, found in PAGES.items() if found])
+def test_page(found, check, folder):
+    scripts = [block for block in found if block.language == "python" and not block.tested_by]
+    results = {}
+    if scripts:
+        # Copies, since a block may write a file of the same name.
+        shutil.copytree(TOP / "examples/data", folder, dirs_exist_ok=True)
+        results = run_python(scripts, folder)
+    for block in found:
+        said = results[block.place] if block.place in results else run_block(block)
+        check.true(said is None, f"{block.place}: {block.language or 'a block without a language'} fails\n{said}")

@@ -1,31 +1,21 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""YADE on one, two and three ranks: the same results, one set of files, and a clear end when something fails.
-
-    tests/mpi/run.py [--long]
-
-Starts scene.py, or with --long the pile of examples/, through scripts/yade_mpi.sh, and judges what they write. The last
-line is 'N passed, N failed'; exit status 1 if anything failed.
+"""YADE on one, two and three ranks: the same results, one set of files, and a clear end when something fails. Starts
+scene.py and the pile of examples/ through scripts/yade_mpi.sh, and judges what they write.
 """
 import json
 import os
 import signal
 import subprocess
-import sys
 import tempfile
 import time
 from pathlib import Path
 
 import numpy as np
+import pytest
 
 HERE = Path(__file__).resolve().parent
 TOP = HERE.parent.parent
-sys.path.insert(0, str(HERE.parent))
-
-from checks import Checks
-
 SECONDS = 300
-check = Checks()
 
 
 def command(ranks, *words):
@@ -46,7 +36,7 @@ def scene(ranks, case, folder, *more):
     return run(ranks, HERE / "scene.py", case, folder, *more)
 
 
-def sound(ranks, case, folder, *more):
+def sound(check, ranks, case, folder, *more):
     status, text = scene(ranks, case, folder, *more)
     check.true(status == 0, f"{case} on {ranks} ranks ends with {status}:\n{text}")
 
@@ -55,7 +45,7 @@ def report(folder, name):
     return json.loads((folder / f"{name}.json").read_text())
 
 
-def same(folder, expected, found):
+def same(check, folder, expected, found):
     """States of two runs, in sizes and seconds of the scene; it is short enough for rounding not to grow. A contact
     that comes to another rank is solved anew, with the regularisation of flat faces, which moves a point by up to 1e-10
     of the size and is left off while a contact is carried on: spins see it.
@@ -67,13 +57,21 @@ def same(folder, expected, found):
         check.true(difference < most, f"{found}: {what} differs from that of {expected} by {difference:.1e}")
 
 
-def equal_runs(folder):
-    for ranks in (1, 2, 3):
-        sound(ranks, "whole", folder)
+@pytest.fixture(scope="module")
+def whole():
+    """(folder, how each run ended): one scene on 1, 2 and 3 ranks, from which others go on."""
+    with tempfile.TemporaryDirectory() as name:
+        yield Path(name), [scene(ranks, "whole", Path(name)) for ranks in (1, 2, 3)]
+
+
+def test_equal_runs(check, whole):
+    folder, ends = whole
+    for ranks, (status, text) in enumerate(ends, 1):
+        check.true(status == 0, f"whole on {ranks} ranks ends with {status}:\n{text}")
     serial = report(folder, "whole1")
     for ranks in (2, 3):
         name = f"whole{ranks}"
-        same(folder, "whole1", name)
+        same(check, folder, "whole1", name)
         found = report(folder, name)
         check.true(found["failures"] == [] and found["counters"]["failures"] == 0,
                    f"{name}: failures {found['failures']}")
@@ -92,37 +90,38 @@ def equal_runs(folder):
     check.true(serial["counters"]["calls"] < found["counters"]["calls"], "counters of several workers are not summed")
 
 
-def saved_scenes(folder):
+def test_saved_scenes(check, whole):
+    folder = whole[0]
     for ranks, of in ((1, 3), (3, 1)):
-        sound(ranks, "resumed", folder, of, "whole")
-        same(folder, "whole1", f"whole_resumed{ranks}_of_{of}")
+        sound(check, ranks, "resumed", folder, of, "whole")
+        same(check, folder, "whole1", f"whole_resumed{ranks}_of_{of}")
 
 
-def joints(folder):
+def test_joints(check, folder):
     for ranks in (1, 2, 3):
-        sound(ranks, "joints", folder)
+        sound(check, ranks, "joints", folder)
     serial = report(folder, "joints1")
     first, last = serial["bonds"][0], serial["bonds"][-1]
     check.true(first[0] > 20 and 0 < last[0] < first[0], f"bonds and broken joints as it goes: {serial['bonds']}")
     for ranks in (2, 3):
-        same(folder, "joints1", f"joints{ranks}")
+        same(check, folder, "joints1", f"joints{ranks}")
         found = report(folder, f"joints{ranks}")
         check.true(found["bonds"] == serial["bonds"],
                    f"bonds on {ranks} ranks: {found['bonds']}, on one {serial['bonds']}")
         check.true(found["failures"] == [], f"joints on {ranks} ranks: failures {found['failures']}")
     check.true(found["across"] > 20, f"too few joints across borders for a test of them: {found['across']}")
     for ranks, of in ((1, 3), (3, 1)):
-        sound(ranks, "resumed", folder, of, "joints")
-        same(folder, "joints1", f"joints_resumed{ranks}_of_{of}")
+        sound(check, ranks, "resumed", folder, of, "joints")
+        same(check, folder, "joints1", f"joints_resumed{ranks}_of_{of}")
         check.true(
             report(folder, f"joints_resumed{ranks}_of_{of}")["bonds"] == last, f"bonds after a save on {of} ranks")
 
 
-def lonely_workers(folder):
+def test_lonely_workers(check, folder):
     status, text = scene(3, "apart", folder)
     check.true(status == 0 and text.count("meets no other worker") == 2, f"workers apart end with {status}:\n{text}")
-    sound(1, "apart", folder)
-    same(folder, "apart1", "apart3")
+    sound(check, 1, "apart", folder)
+    same(check, folder, "apart1", "apart3")
     for ranks in (1, 3):
         found = report(folder, f"apart{ranks}")
         pairs, walls = (sum(calls[i] for calls in found["calls"]) for i in (0, 1))
@@ -130,21 +129,21 @@ def lonely_workers(folder):
                    f"counters of {ranks} ranks leave a functor out: {found}")
 
 
-def recorders(folder):
-    sound(3, "recorders", folder)
+def test_recorders(check, folder):
+    sound(check, 3, "recorders", folder)
     names = {path.name for path in folder.glob("*own-*.vtp")}
     check.true(
         len(names) == 3 and {name[:6]
                              for name in names} == {"rank0.", "rank1.", "rank2."}, f"files of the ranks: {names}")
 
 
-def failures(folder):
+def test_failures(check, folder):
     for case, words in (("raising", ("rank 1: Traceback", "this worker has had enough")),
                         ("raising_in_step", ("division by zero",))):
         status, text = scene(2, case, folder)
         check.true(status == 1 and all(word in text for word in words),
                    f"{case} ends with {status}, without {words}:\n{text}")
-    sound(3, "refusals", folder)
+    sound(check, 3, "refusals", folder)
     said = report(folder, "refusals")
     expected = ("1 bodies cannot be divided between 2 workers", "must be above 0",
                 "body 36 is free to move and on rank 0")
@@ -166,7 +165,7 @@ def started(case, folder):
     return process
 
 
-def killed_rank(folder):
+def test_killed_rank(check, folder):
     """What was saved before is whole, and a run goes on from it."""
     process = started("killed", folder)
     os.kill(int((folder / "pid2").read_text()), signal.SIGKILL)
@@ -174,11 +173,11 @@ def killed_rank(folder):
     check.true(process.returncode == 137, f"a run with a killed rank ends with {process.returncode}:\n{text}")
     check.true("rank 2" in text and "ended by signal 9" in text, f"what is said of a killed rank:\n{text}")
     (folder / "killed.yade.gz").rename(folder / "killed_half4.yade.gz")
-    sound(3, "resumed", folder, 4, "killed")
+    sound(check, 3, "resumed", folder, 4, "killed")
     check.true(report(folder, "killed_resumed3_of_4")["step"] == 20 + 200, "the saved scene is that of step 20")
 
 
-def asked_to_stop(folder):
+def test_asked_to_stop(check, folder):
     process = started("interrupted", folder)
     process.send_signal(signal.SIGINT)
     text, _ = process.communicate(timeout=SECONDS)
@@ -186,7 +185,8 @@ def asked_to_stop(folder):
     check.true((folder / "interrupted.npz").exists(), "an interrupted run writes its results")
 
 
-def pile(folder):
+@pytest.mark.long
+def test_pile(check, folder):
     """A pile is chaotic: what does not depend on how each body fell is compared; the files are those of one process."""
     summaries = []
     for ranks in (1, 3):
@@ -210,18 +210,3 @@ def pile(folder):
     resumed = json.loads((folder / "pile3" / "summary.json").read_text())
     check.true(status == 0 and (resumed["first_step"], resumed["steps"]) == (2400, 2450),
                f"a resumed pile ends with {status}:\n{text}")
-
-
-def main():
-    with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        short = (equal_runs, saved_scenes, joints, lonely_workers, recorders, failures, killed_rank, asked_to_stop)
-        for part in (pile,) if sys.argv[1:] == ["--long"] else short:
-            begin = time.monotonic()
-            part(folder)
-            print(f"{part.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
-    return check.summary()
-
-
-if __name__ == "__main__":
-    sys.exit(main())
