@@ -1,13 +1,13 @@
 //! The closest points.
 
 use super::{judged, judged_by, solved};
-use kit::stress::judge::Failure::*;
+use kit::stress::ledger::Fault::*;
 use potential_particles::Formulation;
 
 /// r/size of 1e-10 against 1e-4: midway was answered, closest was not.
 #[test]
 fn closest_points_of_sharp_bodies_have_an_answer() {
-    judged("closest_of_sharp_bodies", &[Error]);
+    judged("closest_of_sharp_bodies", &[NotSolved]);
 }
 
 /// P1 on a sphere, where λ = 1e-10.

@@ -1,7 +1,7 @@
 //! The scale s and its gap, which holds and is no wider than rounding explains; and on which side of contact a pair is.
 
 use super::{judged, judged_by};
-use kit::stress::judge::Failure::*;
+use kit::stress::ledger::Fault::*;
 
 /// Planes of r/size = 6e-8 that push or pull by less than their depth is known; once more with k = 1e-10.
 #[test]
@@ -45,7 +45,7 @@ fn a_separation_proved_on_the_way_gives_a_lower_bound() {
 /// a gap of 130.
 #[test]
 fn a_separation_proved_after_a_loose_answer_is_the_answer() {
-    judged("separated_after_a_loose_answer", &[Reject, Error, Warm]);
+    judged("separated_after_a_loose_answer", &[Reject, NotSolved, Warm]);
 }
 
 /// A plane that may pull by more than it is in doubt, as it seems to pull already.

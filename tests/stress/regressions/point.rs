@@ -1,7 +1,7 @@
 //! The contact point, its bound, and the normal.
 
 use super::{judged, judged_by};
-use kit::stress::judge::Failure::*;
+use kit::stress::ledger::Fault::*;
 
 /// Two ordinary polyhedra, from memory: s and point were right, point_bound was NaN.
 #[test]

@@ -1,9 +1,9 @@
 //! What a pair remembers is a hint only: from any numbers at all, the answer is the one without.
 
+use crate::pair_line::Line;
 use crate::random::Random;
 use crate::stress::cases::{Case, Shapes, stream};
 use crate::stress::ledger::{Fault, Finding, Ledger};
-use crate::stress::line::Line;
 use potential_particles::{Contact, DetectError, Flags, Formulation, Kind, PairState, Settings, detect};
 use serde::Serialize;
 
@@ -124,7 +124,7 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
             ledger.judged += 1;
             let Some(detail) = wrong(&cold, &warm) else { continue };
             let written = Written {
-                pair: Line::of(&case, detail.clone()),
+                pair: case.line(detail.clone()),
                 memory_bits: raw.map(f64::to_bits),
                 memory: format!("{raw:?}"),
                 settings: format!("{settings:?}"),
@@ -134,13 +134,13 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
             let planes = written.pair.planes();
             let written = serde_json::to_value(written).unwrap_or_default();
             let family = family.clone();
-            ledger.find(Finding { fault: Fault::Memory, family, seed, index, detail, case: written, planes });
+            ledger.find(Finding { fault: Fault::Warm, family, seed, index, detail, case: written, planes });
         }
     }
 }
 
 /// What of an answer from memory is not that without.
-fn wrong(cold: &Result<Contact, DetectError>, warm: &Result<Contact, DetectError>) -> Option<String> {
+pub fn wrong(cold: &Result<Contact, DetectError>, warm: &Result<Contact, DetectError>) -> Option<String> {
     let (cold, warm) = match (cold, warm) {
         (Ok(cold), Ok(warm)) => (cold, warm),
         (Ok(_), Err(error)) => return Some(format!("failed from memory: {error}")),

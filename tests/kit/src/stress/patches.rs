@@ -1,10 +1,13 @@
 //! Patches against brute force from the definition, and from states that were left by other poses of the pair.
 
+use crate::pair_line::Shape;
+use crate::patch::bodies::cuboid;
 use crate::patch::brute::{brute, frame_of};
 use crate::random::Random;
 use crate::stress::cases::stream;
 use crate::stress::ledger::{Fault, Finding, Ledger};
-use nalgebra::{Rotation3, Vector3};
+use crate::stress::shapes::flattened;
+use nalgebra::{Quaternion, Rotation3, UnitQuaternion, Vector3};
 use potential_particles::{
     Kind, Particle, Patch, PatchFlags, PatchPoint, PatchScratch, PatchSettings, PatchState, Plane, Pose, Settings,
     detect, patch_of_contact,
@@ -19,13 +22,7 @@ const ALLOWED: f64 = 3.0;
 /// Error of the brute force, relative.
 const OF_BRUTE: f64 = 1e-7;
 
-const FAMILIES: [&str; 4] = ["boxes in line", "boxes turned by a little", "boxes", "grains"];
-
-fn cuboid(half: [f64; 3], r: f64, k: f64) -> Particle {
-    let planes: Vec<Plane> =
-        (0..6).map(|i| Plane { normal: Vector3::ith(i / 2, [1.0, -1.0][i % 2]), offset: half[i / 2] - r }).collect();
-    Particle::new(&planes, r, k, 1.2 * Vector3::from(half).norm()).expect("a cuboid")
-}
+const FAMILIES: [&str; 5] = ["boxes in line", "boxes turned by a little", "boxes", "grains", "outlines of grains"];
 
 fn grain(r: f64, k: f64, random: &mut Random) -> Particle {
     loop {
@@ -53,14 +50,21 @@ fn pair(family: usize, random: &mut Random) -> Pair {
     let r = 10f64.powf(-3.5 + 3.0 * random.uniform()).min(0.15);
     let k = if family < 2 { 0.0 } else { random.pick(&[0.0, 0.0, 1e-3, 0.1]) };
     let overlap = r * random.pick(&[1e-3, 0.02, 0.2, 0.5]);
-    if family == 3 {
-        let (a, b) = (grain(r, k, random), grain(r, k, random));
-        let mut turn = || [random.normal(), random.normal(), random.normal(), random.normal()];
-        let (turn_a, turn_b) = (turn(), turn());
+    if family >= 3 {
+        let flat = family == 4;
+        let mut grain = || loop {
+            let grain = grain(r, k, random);
+            let outline = if flat { flattened(&grain) } else { Some(grain) };
+            if let Some(grain) = outline.filter(|grain| grain.bounding_radius() < 1.5) {
+                break grain;
+            }
+        };
+        let (a, b) = (grain(), grain());
+        let (turn_a, turn_b) = (random.turn_in(flat), random.turn_in(flat));
         let at_a = Pose::new([0.0; 3], turn_a).expect("a pose");
-        // Brought into contact along z by bisection.
+        // Brought into contact along an axis by bisection.
         let (mut near, mut far) = (0.0, 3.0);
-        let at = |z: f64| Pose::new([0.0, 0.0, z], turn_b).expect("a pose");
+        let at = |z: f64| Pose::new(if flat { [z, 0.0, 0.0] } else { [0.0, 0.0, z] }, turn_b).expect("a pose");
         for _ in 0..50 {
             let z = 0.5 * (near + far);
             let found = detect(&a, &at_a, &b, &at(z), &Settings::default(), None);
@@ -86,7 +90,7 @@ fn pair(family: usize, random: &mut Random) -> Pair {
             most * overlap.max(1e-6) / r * Vector3::new(random.normal(), random.normal(), random.normal()),
         ),
     };
-    let q = nalgebra::UnitQuaternion::from_rotation_matrix(&turn);
+    let q = UnitQuaternion::from_rotation_matrix(&turn);
     let at_b = Pose::new([shift[0], shift[1], half_a[2] + half_b[2] - overlap], [q.w, q.i, q.j, q.k]).expect("a pose");
     let at_a = Pose::at([0.0; 3]).expect("a pose");
     Pair { a: cuboid(half_a, r, k), b: cuboid(half_b, r, k), at_a, at_b }
@@ -109,12 +113,9 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     let frame = frame_of(&contact.normal);
     let right = brute((&a, &at_a), Some((&b, &at_b)), &contact.point, &frame, &[], 2.0 * farthest);
     let mut fault = |detail: String| {
-        let numbers = |p: &Particle| {
-            let planes: Vec<[f64; 4]> = p.planes().map(|p| [p.normal.x, p.normal.y, p.normal.z, p.offset]).collect();
-            serde_json::json!({"planes": planes, "r": p.rounding_radius(), "k": p.sphericity(), "R": p.shadow_radius()})
-        };
-        let case =
-            serde_json::json!({"A": numbers(&a), "B": numbers(&b), "a": format!("{at_a:?}"), "b": format!("{at_b:?}")});
+        let case = serde_json::json!({
+            "A": Shape::from(&a), "B": Shape::from(&b), "a": format!("{at_a:?}"), "b": format!("{at_b:?}")
+        });
         let planes = a.plane_count() + b.plane_count();
         ledger.find(Finding {
             fault: Fault::Patch,
@@ -166,11 +167,13 @@ fn carried(
     random: &mut Random,
 ) -> Option<String> {
     let contact = detect(a.0, a.1, b.0, b.1, &Settings::default(), None).ok()?;
-    let about = [contact.normal, Vector3::x(), Vector3::y()][random.whole(0, 3)];
+    let flat = a.0.is_in_plane();
+    let about = if flat { Vector3::z() } else { random.pick(&[contact.normal, Vector3::x(), Vector3::y()]) };
     let angle = random.pick(&[std::f64::consts::PI, 1e-9, 1e-5, std::f64::consts::FRAC_PI_2]);
-    let turn = Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(about), angle);
+    let turn = UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_normalize(about), angle);
     let position = contact.point + turn * (a.1.position() - contact.point);
-    let q = nalgebra::UnitQuaternion::from_matrix(&(turn.matrix() * a.1.rotation()));
+    let [w, x, y, z] = a.1.orientation();
+    let q = turn.quaternion() * Quaternion::new(w, x, y, z);
     let turned = Pose::new(position.into(), [q.w, q.i, q.j, q.k]).ok()?;
     let (mut state, mut scratch) = (PatchState::default(), PatchScratch::new());
     for pose in [&turned, &turned, a.1] {
