@@ -25,12 +25,6 @@ pub struct Measures {
     pub error: Option<f64>,
     /// Distance of the point to the optimum, over the smaller particle.
     pub point_error: Option<f64>,
-    /// Its bound, likewise.
-    pub point_bound: Option<f64>,
-    /// Angle of the normal to the true one.
-    pub normal_error: Option<f64>,
-    /// The gap over what the rounding of the input explains.
-    pub looseness: Option<f64>,
 }
 
 /// The path that answered a call.

@@ -78,9 +78,6 @@ pub struct OfFamily {
     pub gap: Distribution,
     pub error: Distribution,
     pub point_error: Distribution,
-    pub point_bound: Distribution,
-    pub normal_error: Distribution,
-    pub looseness: Distribution,
     /// Of midway solved to the end, s.
     pub time: Distribution,
     pub extended: u64,
@@ -97,9 +94,6 @@ impl OfFamily {
             (&mut self.gap, &other.gap),
             (&mut self.error, &other.error),
             (&mut self.point_error, &other.point_error),
-            (&mut self.point_bound, &other.point_bound),
-            (&mut self.normal_error, &other.normal_error),
-            (&mut self.looseness, &other.looseness),
             (&mut self.time, &other.time),
         ] {
             mine.merge(others);
@@ -151,14 +145,9 @@ impl Tally {
         of.pairs += 1;
         *self.ledger.families.entry(FAMILIES[family].name.into()).or_default() += 1;
         let m = &verdict.measures;
-        for (value, distribution) in [
-            (Some(m.gap), &mut of.gap),
-            (m.error, &mut of.error),
-            (m.point_error, &mut of.point_error),
-            (m.point_bound, &mut of.point_bound),
-            (m.normal_error, &mut of.normal_error),
-            (m.looseness, &mut of.looseness),
-        ] {
+        for (value, distribution) in
+            [(Some(m.gap), &mut of.gap), (m.error, &mut of.error), (m.point_error, &mut of.point_error)]
+        {
             if let Some(value) = value {
                 distribution.add(value, index);
             }

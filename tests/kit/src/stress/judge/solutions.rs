@@ -64,7 +64,6 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
     if looseness > LOOSE {
         looseness = looseness.min(excess / shaken(scene, contact, truth));
     }
-    verdict.measures.looseness = Some(looseness);
     verdict.check(looseness <= LOOSE, Fault::LooseBound, || {
         format!("s={s:e} ± {gap:e}, truth {:e}: {looseness:.1e} times what rounding explains", truth.most)
     });
@@ -75,7 +74,6 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
         regularised(verdict, scene, contact, start);
     } else if truth.doubt < 0.05 * contact.point_bound {
         verdict.measures.point_error = Some(distance / small);
-        verdict.measures.point_bound = Some(contact.point_bound / small);
         verdict.check(distance <= contact.point_bound + truth.doubt, Fault::BoundOfPoint, || {
             format!("{distance:e} off, bound {:e}, small {small:e}", contact.point_bound)
         });
@@ -83,7 +81,6 @@ fn midway(verdict: &mut Verdict, scene: &Scene, contact: &Contact, truth: &Optim
         let told = !contact.flags.contains(Flags::NORMAL_BY_CENTRES);
         if let Some(normal) = truth.normal().filter(|_| told) {
             let angle = (contact.normal - normal).norm();
-            verdict.measures.normal_error = Some(angle);
             // How fast a normal turns along the surface, times how well the point is known.
             let known = contact.point_bound + 8.0 * EPS * scene.length;
             let allowed = 8.0 * EPS + 2.0 * (truth.a.bend() + truth.b.bend()) * known;
