@@ -149,8 +149,8 @@ fn each_violation_is_its_own_error_and_names_the_value() {
     assert!(Pose::in_plane([0.0; 2], -1.07e9).is_ok());
 }
 
-/// Area of a convex polygon with rounded corners, k = 0: by u and v, the distances beyond the two lines of a corner, the
-/// boundary there is u² + v² = r², and an area is du dv over the sine of the turn between the sides.
+/// Area of a convex polygon with rounded corners, k = 0: by u and v, the distances beyond the two lines of a corner,
+/// the boundary there is u² + v² = r², and an area is du dv over the sine of the turn between the sides.
 #[test]
 fn polygons_have_the_area_of_their_corners_wherever_they_lie() {
     let hexagon: Vec<[f64; 2]> = (0..6).map(|i| (PI * f64::from(i) / 3.0).sin_cos()).map(|(s, c)| [c, s]).collect();

@@ -97,8 +97,8 @@ fn accuracy(back_end: BackEnd, gap_tolerance: f64) -> BTreeMap<String, Accuracy>
     families
 }
 
-/// With default settings the bounds hold, and say something: over all pairs, the median bound is within 1000 of the true
-/// error.
+/// With default settings the bounds hold, and say something: over all pairs, the median bound is within 1000 of the
+/// true error.
 #[test]
 fn every_error_is_within_its_bound() {
     let families = accuracy(BackEnd::Fast, Settings::default().gap_tolerance);

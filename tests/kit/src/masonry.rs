@@ -53,8 +53,8 @@ pub fn ferris_tin_loi(wall: usize) -> Scene {
     masonry(&courses, [0.4, 0.175], 0.65)
 }
 
-/// A wall of courses on a held floor, of bricks of this length and height and the weight 1, pushed along x by a share of
-/// its weight.
+/// A wall of courses on a held floor, of bricks of this length and height and the weight 1, pushed along x by a share
+/// of its weight.
 fn masonry(courses: &Courses, [length, height]: [f64; 2], friction: f64) -> Scene {
     let mut bricks = Vec::new();
     for (row, widths) in courses.iter().enumerate() {

@@ -8,6 +8,7 @@ use crate::stress::cases::Case;
 use crate::stress::clock::{Call, Clock};
 use crate::stress::ledger::Fault;
 use crate::stress::reference::Body;
+pub use definition::stays_in_plane;
 use definition::{batched, carried, enclosed, flips, in_other_units, says_something, surfaces, swapped, well_formed};
 use nalgebra::Vector3;
 use potential_particles::{Contact, DetectError, Flags, PairState, Particle, Pose, Settings};

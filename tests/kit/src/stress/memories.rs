@@ -3,6 +3,7 @@
 use crate::pair_line::Line;
 use crate::random::Random;
 use crate::stress::cases::{Case, Shapes, stream};
+use crate::stress::judge::stays_in_plane;
 use crate::stress::ledger::{Fault, Finding, Ledger};
 use potential_particles::{Contact, DetectError, Flags, Formulation, Kind, PairState, Settings, detect};
 use serde::Serialize;
@@ -122,7 +123,9 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
         let again = solve(&case, &settings, Some(&mut after));
         for warm in [warm, again] {
             ledger.judged += 1;
-            let Some(detail) = wrong(&cold, &warm) else { continue };
+            let leaves = warm.as_ref().is_ok_and(|warm| !stays_in_plane(&shapes, warm));
+            let leaves = leaves.then(|| "leaves the plane".into());
+            let Some(detail) = leaves.or_else(|| wrong(&cold, &warm)) else { continue };
             let written = Written {
                 pair: case.line(detail.clone()),
                 memory_bits: raw.map(f64::to_bits),

@@ -4,7 +4,7 @@ use super::solutions::{explained, is_right, same};
 use super::{Doubt, EPS, FULL, Fault, LOOSE, Scene, Shared, Verdict};
 use crate::pair_line::Place;
 use crate::random::Random;
-use crate::stress::cases::Case;
+use crate::stress::cases::{Case, Shapes};
 use crate::stress::reference::{Body, sum};
 use crate::wide::{Wide, Wide3, solve};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
@@ -23,7 +23,7 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
         && finite(&c.point)
         && finite(&c.branch_a)
         && finite(&c.branch_b)
-        && (!scene.case.shapes.is_flat() || stays_in_plane(c))
+        && stays_in_plane(scene.case.shapes, c)
         && overlapping == (c.s < 1.0)
         && overlapping == (c.overlap.is_finite() && c.overlap >= 0.0)
         && overlapping == finite(&c.point_on_a)
@@ -39,10 +39,10 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
     verdict.check(fine && consistent, Fault::Malformed, || format!("{c:?}"));
 }
 
-/// z stays 0, unless it is no number.
-fn stays_in_plane(c: &Contact) -> bool {
+/// Of shapes in the plane z stays 0, unless it is no number.
+pub fn stays_in_plane(shapes: &Shapes, c: &Contact) -> bool {
     let all = [c.point, c.normal, c.branch_a, c.branch_b, c.point_on_a, c.point_on_b];
-    all.iter().all(|v| v.z.is_nan() || v.z == 0.0)
+    !shapes.is_flat() || all.iter().all(|v| v.z.is_nan() || v.z == 0.0)
 }
 
 /// A gap beyond this that leaves open whether they touch is no answer.
@@ -82,8 +82,9 @@ const NEARLY_LOOSE: f64 = 0.1;
 /// Steps by which the linear functions are levelled.
 const MOST_STEPS: usize = 4;
 
-/// What is proved at the answer's point: s² is at most the larger S there, and at least what linear functions below both
-/// bodies have in common. Where that is near the answer, and its gap is what rounding explains, nothing is in doubt.
+/// What is proved at the answer's point: s² is at most the larger S there, and at least what linear functions below
+/// both bodies have in common. Where that is near the answer, and its gap is what rounding explains, nothing is in
+/// doubt.
 pub(super) fn enclosed(verdict: &mut Verdict, scene: &Scene, contact: &Contact, start: &Vector3<f64>) {
     let (s, gap) = (contact.s, contact.gap);
     let mut x = Wide3::from(*start);

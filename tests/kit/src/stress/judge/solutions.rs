@@ -1,6 +1,6 @@
 //! The answer beside other solutions: in 32 digits, from memory, by closest and by the cone program.
 
-use super::definition::{NEARLY, surfaces};
+use super::definition::{NEARLY, stays_in_plane, surfaces};
 use super::{Doubt, EPS, FULL, Fault, LOOSE, Scene, Verdict, path};
 use crate::random::Random;
 use crate::stress::clock::{Call, Clock};
@@ -235,6 +235,8 @@ pub(super) fn closest(verdict: &mut Verdict, scene: &Scene, midway: &Contact, cl
         }
     };
     verdict.paths.push((Call::Closest, path(&on_b)));
+    let flat = [&on_a, &on_b].iter().all(|contact| stays_in_plane(scene.case.shapes, contact));
+    verdict.check(flat, Fault::Malformed, || format!("leaves the plane: {on_a:?}, {on_b:?}"));
     closest_again(verdict, scene, [(&on_a, settings(1.0)), (&on_b, settings(0.0))], random);
     // Where the scale of midway leaves it open, one of closest may tell.
     let is_open = (midway.s - 1.0).abs() <= midway.gap;
@@ -323,6 +325,8 @@ pub(super) fn by_cone_program(verdict: &mut Verdict, scene: &Scene, fast: &Conta
     match scene.detect(&scene.at_b, &FULL.with_back_end(BackEnd::ConeProgram), None) {
         Ok(cone_program) => {
             verdict.cone_program = Some(true);
+            let flat = stays_in_plane(scene.case.shapes, &cone_program);
+            verdict.check(flat, Fault::Malformed, || format!("leaves the plane: {cone_program:?}"));
             // clarabel stops at about 1e-8 of its own scaled numbers; its bound is no proof below that.
             let allowed = 1e-6 * fast.s.max(1.0) + fast.gap + cone_program.gap;
             verdict.check((cone_program.s - fast.s).abs() <= allowed, Fault::ConeProgram, || {
