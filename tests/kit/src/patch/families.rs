@@ -48,7 +48,8 @@ impl Case {
 
     /// By brute force, about the centre of pressure of a patch that was found: with its torque about there.
     pub fn brute(&self, found: &Patch) -> Option<Brute> {
-        let half = 8.0 * (found.second_moment.trace() / found.area).sqrt();
+        // Of a triangle 2.8 times that reaches to its tip; much farther out another branch may begin.
+        let half = 4.0 * (found.second_moment.trace() / found.area).sqrt();
         let origin = found.pressure_centre;
         match self {
             Self::Pair(Pair { a, pose_a, b, pose_b, contact }) => {

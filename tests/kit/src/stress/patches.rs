@@ -20,14 +20,18 @@ const ALLOWED: f64 = 3.0;
 /// Error of the brute force, relative.
 const OF_BRUTE: f64 = 1e-7;
 
-/// r of random bodies.
+/// All of [`KINDS`] but random bodies: beside their patches both potentials may be equal once more, which brute force does
+/// not tell apart.
+const JUDGED: [usize; 11] = [0, 1, 3, 4, 5, 6, 7, 8, 9, 10, 11];
+
+/// r of polygons and of bodies on boundaries.
 const ROUNDINGS: [f64; 4] = [1e-3, 1e-2, 0.1, 0.5];
 
 /// Case `index`: what is found is added to the ledger.
 pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     let mut random = stream(seed, 17, index);
     let mut chance = Chance::new(seed ^ index.wrapping_mul(0x9E37_79B9_7F4A_7C15));
-    let kind = (index % KINDS.len() as u64) as usize;
+    let kind = JUDGED[(index % JUDGED.len() as u64) as usize];
     let k = random.pick(&[0.0, 0.0, 1e-3, 0.1]);
     let Some(case) = Case::of(kind, k, &ROUNDINGS, &mut chance) else { return };
     *ledger.families.entry(KINDS[kind].into()).or_default() += 1;
