@@ -20,8 +20,8 @@ const ALLOWED: f64 = 3.0;
 /// Error of the brute force, relative.
 const OF_BRUTE: f64 = 1e-7;
 
-/// All of [`KINDS`] but random bodies: beside their patches both potentials may be equal once more, which brute force does
-/// not tell apart.
+/// All of [`KINDS`] but random bodies: beside their patches both potentials may be equal once more, which brute force
+/// does not tell apart.
 const JUDGED: [usize; 11] = [0, 1, 3, 4, 5, 6, 7, 8, 9, 10, 11];
 
 /// r of polygons and of bodies on boundaries.
