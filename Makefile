@@ -40,7 +40,7 @@ Contact detection between potential particles.
   make patch-yade   joints in YADE: closed forms, energy, rest, time; results in out/patch-yade
   make time-step  where piles break, against critical_time_step() and YADE's stepper; results in out/time_step
   make peers    the codes one would pick instead, on the same pairs; installs them; results in out/peers
-  make stress   a million random pairs, walls, seams of triangles, pairs of the plane, memories of any bytes, judged without a known answer; results in out/stress
+  make stress   a million random pairs, walls, seams of triangles, memories of any bytes, judged without a known answer; results in out/stress
   make fuzz     fuzz creation, detection, walls, the plane, memories, mass properties, the reader of pairs, a minute each (libFuzzer's headers of g++), and mesh files
   make sanitize  the plugin with AddressSanitizer and UBSan, and YADE's scenes with it; a quarter of an hour
   make long     YADE for 200,000 steps, killed and loaded, started 500 times: what breaks? results in out/long
@@ -62,7 +62,6 @@ Variables, as in "make demo STEPS=1000 BODIES=50":
   POSES=1000000     stress: number of poses
   WALLS=100000      stress: number of contacts with planes and triangles; by default POSES/10
   SEAMS=50000       stress: number of meshes whose triangles share edges and vertices; by default POSES/20
-  IN_PLANE=50000    stress: number of pairs in the plane; by default POSES/20
   HULLS=100000      stress: number of hulls and bodies of half-spaces, against exact arithmetic; by default POSES/10
   PATCHES=1000      stress: number of pairs whose patches are held against brute force; by default POSES/1000
   MEMORIES=50000    stress: number of pairs solved from memories of any bytes; by default POSES/20
@@ -305,7 +304,7 @@ stress: OUTPUT := $(or $(OUTPUT),out/stress)
 stress:
 	$(call heading,Stress)
 	@status=0; cargo run --quiet --release --example stress -- --poses $(POSES) $(if $(SEED),--seed $(SEED)) --settle-every $(SETTLE) \
-	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(IN_PLANE),--in-plane $(IN_PLANE)) $(if $(PATCHES),--patches $(PATCHES)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
+	$(if $(WALLS),--walls $(WALLS)) $(if $(SEAMS),--seams $(SEAMS)) $(if $(PATCHES),--patches $(PATCHES)) $(if $(HULLS),--hulls $(HULLS)) $(if $(MEMORIES),--memories $(MEMORIES)) --output $(OUTPUT) || status=$$?; \
 	/usr/bin/python3 tools/stress/plot.py $(OUTPUT); exit $$status
 
 fuzz: export FUZZ_SECONDS ?= 60

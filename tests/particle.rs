@@ -1,11 +1,9 @@
 //! Particles: every violation is its own error and names the value; bounds hold; derivatives match.
 
 use nalgebra::Vector3;
-use potential_particles::Section;
 use potential_particles::{
     Particle, ParticleError, PatchScratch, PatchSettings, Plane, Pose, PoseError, Settings, detect, patch_of_contact,
 };
-use std::f64::consts::PI;
 
 fn cube_planes(offset: f64) -> Vec<Plane> {
     (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(axis, sign), offset })).collect()
@@ -291,30 +289,6 @@ fn bounds_hold_every_surface_point() {
         }
         assert!(particle.bounding_radius() < 2.0 * fullest, "a ball of {} for {fullest}", particle.bounding_radius());
     }
-}
-
-#[test]
-fn contact_area_matches_closed_forms() {
-    let origin = Pose::at([0.0; 3]).unwrap();
-    // Two unit spheres at distance 1: a disc of radius √3/2.
-    let sphere = Particle::sphere(1.0).unwrap();
-    let other = Pose::at([0.0, 0.0, 1.0]).unwrap();
-    let half = Vector3::new(0.0, 0.0, 0.5);
-    let section = Section { branch_a: half, branch_b: -half, normal: Vector3::z() };
-    let area = section.area(&sphere, &origin, &sphere, &other, 1e-9).unwrap();
-    assert!((area / (0.75 * PI) - 1.0).abs() < 1e-9);
-
-    // A cube (k = 0, r tiny) shifted by a quarter along x on another one: three quarters of its face.
-    let r = 1e-9;
-    let cube = Particle::new(&cube_planes(0.5 - r), r, 0.0, 0.0).unwrap();
-    let other = Pose::at([0.25, 0.0, 1.0 - 1e-6]).unwrap();
-    let point = Vector3::new(0.125, 0.0, 0.5 - 0.5e-6);
-    let section = Section { branch_a: point, branch_b: point - other.position(), normal: Vector3::z() };
-    for tolerance in [1e-3, 1e-6, 1e-9] {
-        let area = section.area(&cube, &origin, &cube, &other, tolerance).unwrap();
-        assert!((area / 0.75 - 1.0).abs() < tolerance, "{area} at {tolerance}");
-    }
-    assert!(Section { normal: Vector3::zeros(), ..section }.area(&cube, &origin, &cube, &other, 1e-6).is_none());
 }
 
 #[test]

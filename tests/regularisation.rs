@@ -1,12 +1,11 @@
 //! What the regularisation of flat faces leaves in the answer is in its bounds.
 
+use kit::patch::bodies;
 use nalgebra::Vector3;
-use potential_particles::{Contact, Flags, Formulation, Kind, Particle, Plane, Pose, Settings, detect};
+use potential_particles::{Contact, Flags, Formulation, Kind, Particle, Pose, Settings, detect};
 
 fn cuboid(half: [f64; 3], r: f64) -> Particle {
-    let planes: Vec<Plane> =
-        (0..6).map(|i| Plane { normal: Vector3::ith(i / 2, [1.0, -1.0][i % 2]), offset: half[i / 2] - r }).collect();
-    Particle::new(&planes, r, 0.0, 0.0).unwrap()
+    bodies::cuboid(half, r, 0.0)
 }
 
 fn at(x: f64, y: f64, z: f64) -> Pose {
@@ -119,13 +118,7 @@ fn closest_points_that_are_free_along_a_face_are_flagged() {
 /// it, that is flagged, too; with one between others it is not.
 #[test]
 fn closest_points_that_are_nearly_free_are_flagged() {
-    let rounded = |half: [f64; 3]| {
-        let planes: Vec<Plane> = (0..3)
-            .flat_map(|axis| [1.0, -1.0].map(|sign| (axis, sign)))
-            .map(|(axis, sign)| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - 0.01 })
-            .collect();
-        Particle::new(&planes, 0.01, 1e-3, Vector3::from(half).norm()).unwrap()
-    };
+    let rounded = |half: [f64; 3]| bodies::cuboid(half, 0.01, 1e-3);
     let (plate, cube) = (rounded([5.0, 5.0, 0.5]), rounded([0.5; 3]));
     for (aside, is_free) in [(0.0, false), (3.0, true), (3.7, true), (4.4, true), (4.8, true)] {
         let [closest, midway] = [Formulation::Closest, Formulation::Midway].map(|formulation| {

@@ -96,37 +96,26 @@ proptest! {
     }
 
     #[test]
-    fn swapped_bodies_share_the_same_area(cut in contact(-6.0)) {
-        let Cut { a, pose_a, b, pose_b, section } = cut.clone();
-        let section = Section { branch_a: section.branch_b, branch_b: section.branch_a, normal: -section.normal };
-        let swapped = Cut { a: b, pose_a: pose_b, b: a, pose_b: pose_a, section };
-        let sharpest = cut.a.rounding_radius().min(cut.b.rounding_radius());
+    fn the_same_section_said_otherwise_has_the_same_area(cut in contact(-6.0), turn in turn(), exponent in -30i32..20) {
+        let (Cut { a, pose_a, b, pose_b, section }, area) = (cut.clone(), cut.area());
+        let Section { branch_a, branch_b, normal } = section;
+        let other = |section, a: &Particle, b: &Particle| Cut { section, a: a.clone(), b: b.clone(), ..cut.clone() };
+        // The bodies swapped.
+        let section = Section { branch_a: branch_b, branch_b: branch_a, normal: -normal };
+        let swapped = Cut { pose_a: pose_b, pose_b: pose_a, ..other(section, &b, &a) };
         let walked = cut.is_exact() && swapped.is_exact();
-        let known = if walked { 2e-12 + 2.0 * f64::EPSILON / sharpest } else { 1e-6 };
-        prop_assert!(close(cut.area(), swapped.area(), known), "{} {}, walked: {walked}", cut.area(), swapped.area());
-    }
-
-    #[test]
-    fn a_rigid_motion_changes_nothing(cut in contact(-6.0), turn in turn()) {
+        let known = 2e-12 + 2.0 * f64::EPSILON / a.rounding_radius().min(b.rounding_radius());
+        prop_assert!(close(area, swapped.area(), if walked { known } else { 1e-6 }), "swapped: {area} {}", swapped.area());
+        // Turned as a whole.
         let carry = |pose: &Pose| Pose::from_rotation((turn * pose.position()).into(), &(turn * pose.rotation())).unwrap();
-        let Section { branch_a, branch_b, normal } = cut.section;
         let section = Section { branch_a: turn * branch_a, branch_b: turn * branch_b, normal: turn * normal };
-        let moved = Cut { pose_a: carry(&cut.pose_a), pose_b: carry(&cut.pose_b), section, ..cut.clone() };
-        prop_assert!(close(cut.area(), moved.area(), 1e-9 + blur(&cut, 1.0)), "{} {}", cut.area(), moved.area());
-    }
-
-    #[test]
-    fn units_do_not_matter(cut in contact(-8.0), exponent in -30i32..20) {
-        // Powers of two scale without rounding.
+        let moved = Cut { pose_a: carry(&pose_a), pose_b: carry(&pose_b), ..other(section, &a, &b) };
+        prop_assert!(close(area, moved.area(), 1e-9 + blur(&cut, 1.0)), "turned: {area} {}", moved.area());
+        // In another unit; powers of two scale without rounding.
         let unit = 2f64.powi(exponent);
-        let scaled = |p: &Particle| {
-            let planes: Vec<Plane> = p.planes().map(|plane| Plane { offset: unit * plane.offset, ..plane }).collect();
-            Particle::new(&planes, unit * p.rounding_radius(), p.sphericity(), unit * p.shadow_radius()).unwrap()
-        };
-        let Section { branch_a, branch_b, normal } = cut.section;
         let section = Section { branch_a: unit * branch_a, branch_b: unit * branch_b, normal };
-        let after = Cut { a: scaled(&cut.a), b: scaled(&cut.b), section, ..cut.clone() };
-        prop_assert!(close(unit * unit * cut.area(), after.area(), 1e-12), "{} {}", cut.area(), after.area());
+        let after = other(section, &a.scaled(unit).unwrap(), &b.scaled(unit).unwrap()).area() / (unit * unit);
+        prop_assert!(close(area, after, 1e-12), "in another unit: {area} {after}");
     }
 
     #[test]

@@ -1,9 +1,10 @@
 //! Sections of two particles, and those whose areas are known to 40 digits.
 
+pub use kit::patch::bodies::cuboid;
 use kit::truth::{Shape, number};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::Section;
-use potential_particles::{Contact, Particle, Plane, Pose};
+use potential_particles::{Contact, Particle, Pose};
 use serde::Deserialize;
 
 /// Two particles and the plane that cuts them. Nothing depends on the positions.
@@ -40,14 +41,6 @@ impl Cut {
     pub fn points(&self) -> [Vector3<f64>; 2] {
         [self.pose_a.rotation().tr_mul(&self.section.branch_a), self.pose_b.rotation().tr_mul(&self.section.branch_b)]
     }
-}
-
-/// A box with half edges, rounded by r (faces of the finished particle near the half edges).
-pub fn cuboid(half: [f64; 3], r: f64, k: f64) -> Particle {
-    let planes: Vec<Plane> = (0..3)
-        .flat_map(|axis| [1.0, -1.0].map(|sign| Plane { normal: Vector3::ith(axis, sign), offset: half[axis] - r }))
-        .collect();
-    Particle::new(&planes, r, k, 1.2 * Vector3::from(half).norm()).expect("a valid box")
 }
 
 /// A section with its area.

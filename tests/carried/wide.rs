@@ -18,6 +18,8 @@ pub struct Tally {
     pub apart: u64,
     /// Contacts that ended while they were followed.
     pub ended: u64,
+    /// And those that began.
+    pub begun: u64,
     pub faults: Vec<String>,
     /// Largest errors of s and of the point, over their bounds.
     pub most: [f64; 2],
@@ -78,6 +80,12 @@ pub fn walk(random: &mut Random, tally: &mut Tally) {
             tally.contacts += 1;
         }
         tally.ended += u64::from(touched && contact.kind == Kind::Separated);
+        // A contact begins by a solve.
+        let begins = contact.kind == Kind::Overlapping && !touched && i > 0;
+        tally.begun += u64::from(begins);
+        if begins && contact.flags.contains(Flags::CARRIED) {
+            tally.faults.push(format!("carried into a contact: {contact:?}"));
+        }
         touched = contact.kind == Kind::Overlapping;
         if contact.flags.contains(Flags::CARRIED) {
             *if touched { &mut tally.carried } else { &mut tally.apart } += 1;
@@ -87,7 +95,7 @@ pub fn walk(random: &mut Random, tally: &mut Tally) {
             let known = contact.point_bound <= tolerance * small || !touched;
             let fault = match touched {
                 true => fault(&contact, &exact, length, &mut tally.most),
-                false => (!(contact.s <= exact.s + exact.gap)).then(|| format!("apart, but exact {}", exact.s)),
+                false => apart(&contact, &exact, |moved| detect(&a, at_a, &b, &moved(at_b), &exactly(), None).unwrap()),
             };
             if let Some(fault) = fault.or((!known).then(|| format!("point_bound {:e}", contact.point_bound))) {
                 let shapes =
@@ -103,6 +111,18 @@ pub fn walk(random: &mut Random, tally: &mut Tally) {
         poses = poses.map(|pose| random.moved(&pose, size * step, size * turn));
         poses[1] = Pose::new((poses[1].position() + drift).into(), poses[1].orientation()).unwrap();
     }
+}
+
+/// Of a pair that is carried on apart: its s is a lower bound, and as near as they are said to be at least, they do not
+/// meet.
+fn apart(carried: &Contact, exact: &Contact, look: impl Fn(&dyn Fn(&Pose) -> Pose) -> Contact) -> Option<String> {
+    let nearer = look(&|at_b| {
+        let position = at_b.position() - carried.distance * (1.0 - 1e-9) * exact.normal;
+        Pose::new(position.into(), at_b.orientation()).unwrap()
+    });
+    let told = carried.flags.contains(Flags::REJECTED) && carried.s >= 1.0 && carried.distance >= 0.0;
+    let right = told && carried.s <= exact.s + exact.gap && nearer.s + nearer.gap >= 1.0;
+    (!right).then(|| format!("apart, but exact {}, nearer {}: {carried:?}", exact.s, nearer.s))
 }
 
 fn fault(carried: &Contact, exact: &Contact, length: f64, most: &mut [f64; 2]) -> Option<String> {

@@ -34,9 +34,13 @@ fn body(r: f64, k: f64) -> Particle {
 
 /// s, overlap, normal, point, on_particle, on_boundary.
 fn numbers(c: &FlatContact) -> [f64; 14] {
-    let mut all = [c.s; 14];
-    all[1] = c.overlap;
-    for (i, v) in [c.normal, c.point, c.on_particle, c.on_boundary].iter().enumerate() {
+    all_of([c.s, c.overlap], [c.normal, c.point, c.on_particle, c.on_boundary])
+}
+
+fn all_of(numbers: [f64; 2], vectors: [Vector3<f64>; 4]) -> [f64; 14] {
+    let mut all = [numbers[0]; 14];
+    all[1] = numbers[1];
+    for (i, v) in vectors.iter().enumerate() {
         all[2 + 3 * i..5 + 3 * i].copy_from_slice(v.as_slice());
     }
     all
@@ -149,6 +153,85 @@ fn contacts_with_boundaries_move_as_differences_say() {
     }
     println!("{met:?} on planes, edges, vertices");
     assert!(met.iter().all(|count| *count >= 3), "{met:?}");
+}
+
+/// Motions of the plane: x, y and about z of A, then of B.
+const IN_PLANE: [usize; 6] = [0, 1, 5, 6, 7, 11];
+
+#[test]
+fn polygons_move_as_differences_say_and_stay_in_the_plane() {
+    let square = |half: f64, r: f64, k: f64| {
+        let corners = [[-half, -half], [half, -half], [half, half], [-half, half]];
+        Particle::polygon(&corners, r, k).unwrap()
+    };
+    let place = |[x, y, turn]: [f64; 3]| Pose::in_plane([x, y], turn).unwrap();
+    let moved = |at: [f64; 3], by: &[f64]| place([at[0] + by[0], at[1] + by[1], at[2] + by[2]]);
+    let beside = |d: &ContactDerivatives, columns: usize| {
+        let flat = |row: usize| row < 2 || (row - 2) % 3 != 2;
+        (0..columns).all(|column| {
+            let leaves = !IN_PLANE.contains(&column);
+            self::columns(d, column).iter().enumerate().all(|(row, v)| *v == 0.0 || !leaves && flat(row))
+        })
+    };
+    let near = |found: &[f64; 14], expected: &[f64; 14], what: &str| {
+        for (i, (found, expected)) in found.iter().zip(expected).enumerate() {
+            let off = (found - expected).abs();
+            assert!(off < 1e-5 * (1.0 + expected.abs()), "{what}, number {i}: {found} for {expected}");
+        }
+    };
+    let (mut met, mut on_line) = ([0; 2], 0);
+    for (i, k, formulation) in (0..12)
+        .flat_map(|i| [(i, 0.1, Formulation::Midway), (i, 0.1, Formulation::Closest), (i, 0.0, Formulation::Midway)])
+    {
+        let (a, b) = (square(0.5, 0.1, k), square(0.4, 0.08, 2.0 * k));
+        let settings = Settings::default().with_formulation(formulation).with_gap_tolerance(1e-15);
+        let way = 0.5 * f64::from(i);
+        let (at_a, at_b) = ([0.1, 0.2, 0.3], [0.1 + 0.85 * way.cos(), 0.2 + 0.85 * way.sin(), 1.0 + way]);
+        let found =
+            |by: [f64; 6]| detect(&a, &moved(at_a, &by[..3]), &b, &moved(at_b, &by[3..]), &settings, None).unwrap();
+        let contact = found([0.0; 6]);
+        let (pose_a, pose_b) = (place(at_a), place(at_b));
+        let what = format!("{formulation}, k {k}, {i}");
+        // A line, of which the square is at a corner.
+        let line =
+            Wall::new([0.1 + 0.55 * way.cos(), 0.2 + 0.55 * way.sin(), 0.0], [way.cos(), way.sin(), 0.0]).unwrap();
+        let on = |by: &[f64]| contact_with_plane(&a, &moved(at_a, by), &line, &settings, None).unwrap();
+        let flat = on(&[0.0; 3]);
+        if k > 0.0 && flat.kind == Kind::Overlapping && flat.s > 1e-3 {
+            let d = boundary_derivatives(&a, &pose_a, None, &flat, &settings).unwrap();
+            for (n, column) in [0, 1, 5].into_iter().enumerate() {
+                let expected = derivative(1e-5, |h| {
+                    numbers(&on(&std::array::from_fn::<_, 3, _>(|j| if j == n { h } else { 0.0 })))
+                });
+                near(&columns(&d, column), &expected, &format!("line, {what}, column {column}"));
+            }
+            assert!(beside(&d, 6), "{what}");
+            on_line += 1;
+        }
+        // In the cores of both there are none.
+        if contact.kind == Kind::Separated || contact.formulation != formulation || contact.s < 1e-3 {
+            continue;
+        }
+        let d = contact_derivatives(&a, &pose_a, &b, &pose_b, &contact, &settings).unwrap();
+        met[usize::from(k > 0.0)] += 1;
+        for (n, column) in IN_PLANE.into_iter().enumerate() {
+            let expected = derivative(1e-5, |h| {
+                let c = found(std::array::from_fn(|j| if j == n { h } else { 0.0 }));
+                all_of([c.s, c.overlap], [c.normal, c.point, c.point_on_a, c.point_on_b])
+            });
+            near(&columns(&d, column), &expected, &format!("{what}, column {column}"));
+        }
+        assert!(beside(&d, 12), "{what}");
+        // Backwards the same, and into the shape.
+        let weights = some_weights(true, formulation == Formulation::Closest, scattered(i as usize));
+        let mut shape = ShapeGradient::zeros(&a);
+        let given = Some(&mut shape);
+        let (poses, _) =
+            contact_gradient(&a, &pose_a, &b, &pose_b, &contact, &settings, &weights, given, None).unwrap();
+        assert!(disagreement(&weighted(&d, &weights), &poses, 1.0) < 1e-9, "{what}");
+        assert!(shape.planes.iter().all(|plane| plane.normal.z == 0.0), "{what}");
+    }
+    assert!(met[0] > 2 && met[1] > 12 && on_line > 12, "{met:?}, {on_line}");
 }
 
 /// Against differences of the wrench, and of its energy: the second derivative in shifts is symmetric, and in turns but

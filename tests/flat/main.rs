@@ -2,8 +2,6 @@
 
 mod closed_forms;
 mod found;
-mod meshes;
-mod properties;
 
 use kit::truth;
 use nalgebra::Vector3;
@@ -152,4 +150,19 @@ fn what_is_no_boundary_is_refused() {
     let wall = Wall::new(corner, [0.0, 0.0, 1.0]).unwrap();
     let settings = Settings::default().with_gap_tolerance(0.0);
     assert!(contact_with_plane(&cube(0.1, 0.1), &Pose::at(corner).unwrap(), &wall, &settings, None).is_err());
+}
+
+#[test]
+fn an_answer_is_the_same_wherever_the_scene_lies() {
+    // Multiples of 2⁻¹⁰, which a shift by 2²⁰ leaves without rounding.
+    let particle = cube(0.05, 0.1);
+    let vertices = [[-0.5, 0.25, 0.125], [1.5, -0.75, 0.25], [0.25, 1.0, -0.5]];
+    let shift = Vector3::new(1048576.0, -524288.0, 2097152.0);
+    for position in [[0.25, 0.125, 0.5], [0.5, 1.25, 0.25], [-0.75, 0.5, 0.375]] {
+        let turn = [0.5, 0.3, -0.2, 0.9];
+        let far = |p: [f64; 3]| (Vector3::from(p) + shift).into();
+        let here = touch(&particle, &Pose::new(position, turn).unwrap(), vertices, &solved());
+        let there = touch(&particle, &Pose::new(far(position), turn).unwrap(), vertices.map(far), &solved());
+        assert_eq!((here.s, here.gap, here.branch, here.normal), (there.s, there.gap, there.branch, there.normal));
+    }
 }

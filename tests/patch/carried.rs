@@ -1,6 +1,6 @@
 //! Patches that are carried on, against those that are integrated where they are.
 
-use kit::patch::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid};
+use kit::patch::bodies::{Chance, FAMILIES, Pair, body, contact, cuboid, moved};
 use kit::patch::boundaries::{Boundary, resting};
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 use potential_particles::{
@@ -11,13 +11,6 @@ const SETTINGS: PatchSettings = PatchSettings { tolerance: 1e-4, with_energy: fa
 
 /// Part of the largest depth by which a patch may move at that tolerance.
 const LIMIT: f64 = 3e-3;
-
-/// A pose after a shift and a turn about a point.
-pub fn moved(pose: &Pose, about: &Vector3<f64>, shift: &Vector3<f64>, turn: &Vector3<f64>) -> Pose {
-    let turn = UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner();
-    let position = about + shift + turn * (pose.position() - about);
-    Pose::from_rotation(position.into(), &(turn * pose.rotation())).unwrap()
-}
 
 /// A small motion: a shift and a turn.
 fn small(chance: &mut Chance, depth: f64, reach: f64) -> (Vector3<f64>, Vector3<f64>) {
@@ -109,8 +102,9 @@ fn pairs_stay_within_the_estimate() {
         let k = [0; 2].map(|_| chance.pick(&[0.0, 0.0, 1e-6, 0.02, 0.3]));
         let (r, depth) = (chance.pick(&[1e-6, 1e-4, 1e-3, 0.05, 0.3, 1.0]), chance.pick(&[0.01, 0.1, 0.3]));
         let families = [0; 2].map(|_| chance.pick(&FAMILIES));
-        let mut pair = match round % 3 {
-            0 => faces(k, 0.3 * r, depth, &mut chance),
+        let mut pair = match round % 8 {
+            7 => Pair::flat(r, k[0], depth, &mut chance),
+            0 | 3 | 6 => faces(k, 0.3 * r, depth, &mut chance),
             _ => Pair::random(families, k, r, depth, &mut chance),
         };
         let name = format!("{round}: {families:?}, k {k:?}, r {r}, depth {depth}");
@@ -123,7 +117,10 @@ fn pairs_stay_within_the_estimate() {
         }
         let (pose, point) = (pair.pose_a, pair.contact.point);
         for _ in 0..4 {
-            let (shift, turn) = small(&mut chance, first.largest_depth, reach);
+            let (mut shift, mut turn) = small(&mut chance, first.largest_depth, reach);
+            if pair.is_flat() {
+                (shift.z, turn) = (0.0, turn.z * Vector3::z());
+            }
             pair.pose_a = moved(&pose, &point, &shift, &turn);
             pair.contact = contact(&pair.a, &pair.pose_a, &pair.b, &pair.pose_b);
             let carried = look(&pair, &SETTINGS, &mut state);

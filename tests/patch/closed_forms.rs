@@ -101,6 +101,21 @@ fn spheres_press_as_paraboloids() {
     }
 }
 
+/// In the plane, per unit of depth: parabolas.
+#[test]
+fn discs_press_as_parabolas() {
+    let (radius_a, radius_b, overlap) = (1.0, 0.5, 1e-6);
+    let [a, b] = [radius_a, radius_b].map(|radius| Particle::in_plane(&[], 0.0, 1.0, radius).unwrap());
+    let position = [radius_a + radius_b - overlap, 0.0, 0.0];
+    let found = patch(&pair(a, turn([0.0, 0.0, 1.0], 0.4), b, position, Matrix3::identity()), 1e-9, true);
+    let half = (2.0 * overlap / (1.0 / radius_a + 1.0 / radius_b)).sqrt();
+    let force = 4.0 / 3.0 * overlap * half;
+    check("force", found.force.x, force, 1e-5);
+    check("length", found.area, 2.0 * half, 1e-5);
+    check("energy", found.energy, force * overlap * 0.4, 1e-5);
+    check("second moment", found.second_moment.trace(), 2.0 * half.powi(3) / 3.0, 1e-5);
+}
+
 #[test]
 fn a_square_resists_twist() {
     let r = 1e-6;

@@ -1,46 +1,9 @@
-//! Estimated errors hold, from rounded to sharp bodies; points add up; deep contacts are flagged.
+//! Points add up; deep contacts and those within rounding are flagged; work ends.
 
 use crate::patch;
 use kit::patch::bodies::{Chance, FAMILIES, Pair, contact, cuboid};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::{Kind, Particle, PatchFlags, PatchScratch, PatchSettings, Plane, Pose, patch_of_contact};
-
-#[test]
-fn the_error_is_within_the_estimate() {
-    for (tolerance, seed) in [(1e-4, 11), (1e-6, 12)] {
-        let mut chance = Chance::new(seed);
-        let (mut count, mut over, mut missed) = (0, 0, 0);
-        for family in FAMILIES {
-            for k in [0.0, 1e-6, 0.02, 0.3, 1.0] {
-                for r in [1e-6, 1e-3, 0.05, 0.3, 0.9] {
-                    for depth in [0.001, 0.05, 0.4] {
-                        let other = chance.pick(&FAMILIES);
-                        let pair = Pair::random([family, other], [k, k], r, depth, &mut chance);
-                        let (found, finest) = (patch(&pair, tolerance, false), patch(&pair, 0.01 * tolerance, false));
-                        if finest.flags.contains(PatchFlags::FOLDED) {
-                            continue;
-                        }
-                        let force = finest.force.norm();
-                        let reach = finest.area.sqrt();
-                        let error = ((found.force - finest.force).norm() / force)
-                            .max(0.1 * (found.torque - finest.torque).norm() / (force * reach));
-                        count += 1;
-                        over += usize::from(error > found.error.max(0.1 * tolerance));
-                        // Smaller overlaps are not known as well as that.
-                        let is_missed = found.flags.contains(PatchFlags::TOLERANCE_NOT_REACHED);
-                        missed += usize::from(is_missed && pair.contact.overlap * tolerance > 1e-14);
-                        assert!(
-                            error < 20.0 * tolerance,
-                            "{family} on {other}, k {k}, r {r}, depth {depth}: {error:e}"
-                        );
-                    }
-                }
-            }
-        }
-        assert!(count > 350, "{count} pairs");
-        assert!(50 * over < count && 15 * missed < count, "{tolerance}: {over} and {missed} of {count}");
-    }
-}
 
 #[test]
 fn the_points_add_up() {

@@ -1,15 +1,12 @@
 //! The contact patch against closed forms, its own energy, and quadrature of the definition.
 
-mod aligned;
+mod accuracy;
 mod carried;
-mod cells;
 mod closed_forms;
 mod definition;
 mod estimates;
 mod folds;
 mod gradients;
-mod in_plane;
-mod pieces;
 mod stiffness;
 mod walks;
 mod walls;

@@ -2,7 +2,8 @@
 //! about answers that look doubtful; and the right one must not.
 
 use kit::stress::cases::{BULK, Case, Shapes, family_of, next_group, stream};
-use kit::stress::judge::{FULL, Failure, Shared, Solver, Trial, judge};
+use kit::stress::judge::{FULL, Shared, Solver, Trial, judge};
+use kit::stress::ledger::Fault;
 use nalgebra::Vector3;
 use potential_particles::{Contact, DetectError, Kind, PairState, Particle, Plane, Pose, Settings, detect};
 use std::collections::BTreeMap;
@@ -13,7 +14,7 @@ type Answer = Result<Contact, DetectError>;
 type Counts = fn(&Contact, &Contact) -> bool;
 
 /// Pairs of `families` of which `counts` holds: how many were judged, how many failed, and the failures by kind.
-fn found(solver: Solver, families: &[usize], pairs: usize, counts: Counts) -> (usize, usize, BTreeMap<Failure, u64>) {
+fn found(solver: Solver, families: &[usize], pairs: usize, counts: Counts) -> (usize, usize, BTreeMap<Fault, u64>) {
     let (mut judged, mut failed, mut kinds) = (0, 0, BTreeMap::new());
     let mut index = BULK;
     while judged < pairs {
@@ -30,8 +31,8 @@ fn found(solver: Solver, families: &[usize], pairs: usize, counts: Counts) -> (u
                 }
                 let verdict = judge(&case, &shared, Trial::BY_DEFINITION, solver, &mut stream(1, 4, index));
                 judged += 1;
-                failed += usize::from(!verdict.failures.is_empty());
-                verdict.failures.iter().for_each(|(kind, _)| *kinds.entry(*kind).or_default() += 1);
+                failed += usize::from(!verdict.faults.is_empty());
+                verdict.faults.iter().for_each(|(kind, _)| *kinds.entry(*kind).or_default() += 1);
             }
         }
         index = next_group(index);

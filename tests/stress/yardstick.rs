@@ -22,9 +22,9 @@ fn the_second_solver_agrees_with_the_known_solutions() {
     let (mut settled, mut pairs) = (0, 0);
     for pair in truth::pairs() {
         let (a, b) = (pair.shape_a.particle(), pair.shape_b.particle());
-        let body_a = Body::new(&a, pair.a.pos, pair.a.q, pair.b.pos);
-        let body_b = Body::new(&b, pair.b.pos, pair.b.q, pair.b.pos);
-        let start = 0.5 * (Vector3::from(pair.a.pos) - Vector3::from(pair.b.pos));
+        let body_a = Body::new(&a, &pair.a, pair.b.position);
+        let body_b = Body::new(&b, &pair.b, pair.b.position);
+        let start = 0.5 * (Vector3::from(pair.a.position) - Vector3::from(pair.b.position));
         pairs += 1;
         let Some(found) = optimum(&body_a, &body_b, Wanted::Midway, &start, 1.0) else { continue };
         let truth = truth::number(&pair.truth.s4);

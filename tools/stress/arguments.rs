@@ -10,7 +10,6 @@ pub enum Part {
     Poses,
     Walls,
     Seams,
-    InPlane,
     Memories,
     Mass,
     Patches,
@@ -32,9 +31,6 @@ pub struct Arguments {
     /// Meshes whose triangles share edges and vertices; by default one for each twenty poses.
     #[arg(long)]
     pub seams: Option<u64>,
-    /// Pairs of particles of the plane; by default one for each twenty poses.
-    #[arg(long)]
-    pub in_plane: Option<u64>,
     /// Pairs that are solved from memories of any bytes; by default one for each twenty poses.
     #[arg(long)]
     pub memories: Option<u64>,

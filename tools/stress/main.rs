@@ -16,8 +16,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use kit::machine;
 use kit::stress::cases::{BULK, FAMILIES};
 use kit::stress::ledger::{self, Ledger};
-use kit::stress::tally::Tally;
-use kit::stress::{clock, hulls, in_plane, mass, memories, pairs, patches, seams, sweeps, walks, walls};
+use kit::stress::{hulls, mass, memories, pairs, patches, seams, sweeps, walks, walls};
 use report::Findings;
 use std::process::ExitCode;
 use std::sync::Arc;
@@ -30,11 +29,10 @@ fn main() -> ExitCode {
     if let Some(index) = arguments.replay {
         let passed = match arguments.of {
             Part::Poses => return replay::one(seed, index),
-            Part::Walls => walls::replay(seed, index),
+            Part::Walls => ledger::replay(|ledger| walls::one(seed, index, walls::solve, ledger)),
             Part::Seams => ledger::replay(|ledger| seams::one(seed, index, ledger)),
-            Part::InPlane => ledger::replay(|ledger| in_plane::one(seed, index, ledger)),
             Part::Memories => ledger::replay(|ledger| memories::one(seed, index, ledger)),
-            Part::Mass => mass::replay(seed, index),
+            Part::Mass => ledger::replay(|ledger| mass::one(seed, index, ledger)),
             Part::Patches => ledger::replay(|ledger| patches::one(seed, index, ledger)),
             Part::Hulls => ledger::replay(|ledger| hulls::one(seed, index, ledger)),
         };
@@ -75,34 +73,28 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let cores = std::thread::available_parallelism().map_or(1, usize::from);
     let threads = if arguments.threads == 0 { cores } else { arguments.threads };
     let begin = Instant::now();
-    // Measured while nothing else runs.
-    let evaluation = clock::evaluation([5, 5]);
-
     let settle_every = arguments.settle_every;
     let first = arguments.first.unwrap_or(if settle_every > 1 { BULK } else { 0 });
     let range = pairs::Range { seed, first, count: arguments.poses, family, settle_every };
-    let mut tally = Tally::default();
     let bar = progress("poses", arguments.poses);
-    tally.merge(pairs::run(&range, threads, &stop, &bar));
-    bar.finish_and_clear();
-    let walks = arguments.walks.unwrap_or(arguments.poses / 10_000);
-    let bar = progress("steps of walks", walks * walks::STEPS);
-    tally.merge(walks::run(seed, walks, threads, &stop, &bar));
+    let tally = pairs::run(&range, threads, &stop, &bar);
     bar.finish_and_clear();
     let walls = |index, ledger: &mut Ledger| walls::one(seed, index, walls::solve, ledger);
     let seams = |index, ledger: &mut Ledger| seams::one(seed, index, ledger);
-    let in_plane = |index, ledger: &mut Ledger| in_plane::one(seed, index, ledger);
+    let walks = |index, ledger: &mut Ledger| walks::one(seed, index, ledger);
+    let mass = |index, ledger: &mut Ledger| mass::one(seed, index, ledger);
     let memories = |index, ledger: &mut Ledger| memories::one(seed, index, ledger);
     let patches = |index, ledger: &mut Ledger| patches::one(seed, index, ledger);
     let hulls = |index, ledger: &mut Ledger| hulls::one(seed, index, ledger);
     type One<'a> = &'a (dyn Fn(u64, &mut Ledger) + Sync);
-    let each: [(&'static str, Option<u64>, u64, One); 6] = [
+    let each: [(&'static str, Option<u64>, u64, One); 7] = [
+        ("walks", arguments.walks, 10_000, &walks),
         ("walls", arguments.walls, 10, &walls),
         ("seams", arguments.seams, 20, &seams),
-        ("in the plane", arguments.in_plane, 20, &in_plane),
         ("memories", arguments.memories, 20, &memories),
         ("patches", arguments.patches, 1000, &patches),
         ("hulls", arguments.hulls, 10, &hulls),
+        ("mass", arguments.mass, 1000, &mass),
     ];
     let mut parts = Vec::new();
     for (name, count, share, one) in each {
@@ -114,33 +106,27 @@ fn run(arguments: &Arguments, seed: u64) -> Result<u64, String> {
     let mut sweeps = Vec::new();
     if !arguments.no_sweeps && !stop.load(Ordering::Relaxed) {
         let bar = progress("sweeps", sweeps::COUNT);
-        sweeps = sweeps::all(&mut tally, || bar.inc(1));
+        let mut jumps = Ledger::default();
+        sweeps = sweeps::all(&mut jumps, || bar.inc(1));
+        parts.push(("sweeps", jumps));
         bar.finish_and_clear();
     }
 
-    let particles = arguments.mass.unwrap_or(arguments.poses / 1000);
-    let bar = progress("particles", particles);
-    let mass = mass::run(seed, particles, threads, &stop, &bar);
-    bar.finish_and_clear();
-
     let findings = Findings {
-        mass,
         seed,
         first,
         settle_every,
         wanted: arguments.poses,
         interrupted: stop.load(Ordering::Relaxed),
         seconds: begin.elapsed().as_secs_f64(),
-        evaluation,
         tally,
-        walks,
         sweeps,
         parts,
         machine: machine::Machine::here(),
     };
     findings.write(&arguments.output).map_err(|error| format!("{}: {error}", arguments.output.display()))?;
     findings.print();
-    Ok(findings.failures() + findings.mass.failures())
+    Ok(findings.failures())
 }
 
 fn progress(what: &'static str, length: u64) -> ProgressBar {

@@ -66,7 +66,7 @@ def main():
         if worst:
             errors.plot([worst], [place], "x", color="#e07b00", ms=5)
     for axes, label in ((errors, "error of s over max(s, 1)"),
-                        (times, "evaluations of the pair itself (midway, cold, to the end)")):
+                        (times, "s (midway, cold, to the end)")):
         axes.set_xscale("log")
         axes.set_xlabel(label)
         axes.grid(axis="x", alpha=0.3)
@@ -82,7 +82,7 @@ def main():
             tails.step(edges, shares, where="post", label=call["call"])
     tails.set_xscale("log")
     tails.set_yscale("log")
-    tails.set_xlabel("evaluations of the pair itself")
+    tails.set_xlabel("s")
     tails.set_ylabel("share of calls that take longer")
     tails.grid(alpha=0.3)
     tails.legend(fontsize=7)
@@ -96,7 +96,7 @@ def main():
 
 
 def families_median(summary):
-    return next(call["median"] for call in summary["calls"] if call["call"] == "midway, solved to the end, cold")
+    return next(1e-6 * call["microseconds"]["median"] for call in summary["calls"] if call["call"] == "midway, solved to the end, cold")
 
 
 if __name__ == "__main__":

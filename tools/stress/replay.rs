@@ -2,7 +2,6 @@
 
 use kit::stress::cases::{Case, Shapes, stream};
 use kit::stress::judge::{FULL, Shared, Trial, bodies};
-use kit::stress::line::Line;
 use kit::stress::pairs;
 use kit::stress::reference::{Wanted, optimum};
 use potential_particles::detect;
@@ -38,12 +37,12 @@ pub fn one(seed: u64, index: u64) -> ExitCode {
     }
     let verdict = pairs::one(&shapes, &shared, seed, index, Trial::WHOLE);
     println!("{:#?}\ndoubts without the second solver: {:?}", verdict.measures, verdict.doubts);
-    for (failure, detail) in &verdict.failures {
-        println!("{failure:?}: {detail}");
+    for (fault, detail) in &verdict.faults {
+        println!("{fault:?}: {detail}");
     }
-    match serde_json::to_string(&Line::of(&case, format!("seed {seed} index {index}"))) {
+    match serde_json::to_string(&case.line(format!("seed {seed} index {index}"))) {
         Ok(line) => println!("{line}"),
         Err(error) => eprintln!("stress: {error}"),
     }
-    if verdict.failures.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
+    if verdict.faults.is_empty() { ExitCode::SUCCESS } else { ExitCode::FAILURE }
 }

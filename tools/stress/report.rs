@@ -2,11 +2,9 @@
 
 use kit::machine::Machine;
 use kit::stress::cases::{Case, FAMILIES, Shapes, family_of};
-use kit::stress::clock::{CALLS, Call};
-use kit::stress::judge::{Doubt, Failure, PATHS};
+use kit::stress::clock::CALLS;
+use kit::stress::judge::{Doubt, PATHS};
 use kit::stress::ledger::{Fault, Ledger};
-use kit::stress::line::Line;
-use kit::stress::mass;
 use kit::stress::sweeps::Sweep;
 use kit::stress::tally::{Distribution, OfFamily, Tally};
 use kit::target::write_summary;
@@ -24,11 +22,7 @@ pub struct Findings {
     pub settle_every: u64,
     pub interrupted: bool,
     pub seconds: f64,
-    /// Seconds of one evaluation of S, ∇S and ∇²S of both particles, 5 + 5 planes.
-    pub evaluation: f64,
     pub tally: Tally,
-    pub mass: mass::Tally,
-    pub walks: u64,
     pub sweeps: Vec<Sweep>,
     /// By name.
     pub parts: Vec<(&'static str, Ledger)>,
@@ -66,10 +60,8 @@ struct Summary<'a> {
     seed: u64,
     first: u64,
     interrupted: bool,
-    walks: u64,
-    walk_steps: u64,
     failures: u64,
-    failures_by_kind: &'a BTreeMap<Failure, u64>,
+    failures_by_kind: BTreeMap<Fault, u64>,
     settle_every: u64,
     /// Pairs put to the second solver, and why those whose turn it was not.
     put_to_second_solver: u64,
@@ -80,15 +72,10 @@ struct Summary<'a> {
     rounding_limited: f64,
     other_digits_in_other_units: u64,
     cone_program: Cone,
-    /// Of 5 + 5 planes; each pair has its own.
-    evaluation_ns: f64,
-    /// Longest midway solved to the end over the median one, each in evaluations of its own pair.
-    slowest_over_median: f64,
     calls: Vec<Calls<'a>>,
     families: Vec<FamilySummary<'a>>,
     sweeps: &'a [Sweep],
     parts: Vec<PartSummary<'a>>,
-    mass: &'a mass::Tally,
     seconds: f64,
     machine: &'a Machine,
 }
@@ -103,13 +90,6 @@ struct Cone {
 struct Calls<'a> {
     call: &'a str,
     count: u64,
-    /// In evaluations of the pair itself.
-    median: f64,
-    p99: f64,
-    p99_99: f64,
-    slowest: f64,
-    slowest_over_median: f64,
-    slowest_index: u64,
     microseconds: Microseconds,
     slowest_family: &'a str,
     paths: BTreeMap<&'a str, u64>,
@@ -141,10 +121,7 @@ struct FamilySummary<'a> {
     extended: u64,
     gap: Spread,
     error: Spread,
-    point_bound: Spread,
     point_error: Spread,
-    normal_error: Spread,
-    gap_over_rounding: Spread,
     time: Spread,
     error_histogram: Vec<(f64, u64)>,
     time_histogram: Vec<(f64, u64)>,
@@ -193,22 +170,18 @@ impl<'a> PartSummary<'a> {
     }
 }
 
-fn over_median(distribution: &Distribution) -> f64 {
-    distribution.most / distribution.quantile(0.5)
-}
-
 impl Findings {
     /// Of all parts.
     pub fn failures(&self) -> u64 {
-        self.tally.failures() + self.parts.iter().map(|(_, ledger)| ledger.failures()).sum::<u64>()
+        self.tally.ledger.failures() + self.parts.iter().map(|(_, ledger)| ledger.failures()).sum::<u64>()
     }
 
     /// Writes summary.json, failures.jsonl, faults.jsonl and slowest.jsonl.
     pub fn write(&self, folder: &Path) -> io::Result<()> {
         write_summary(folder.join("summary.json"), &self.summary())?;
         let mut failures = fs::File::create(folder.join("failures.jsonl"))?;
-        for line in self.tally.found.iter().filter_map(|found| found.line.as_ref()) {
-            writeln!(failures, "{}", serde_json::to_string(line).map_err(io::Error::other)?)?;
+        for finding in &self.tally.ledger.found {
+            writeln!(failures, "{}", finding.case)?;
         }
         let mut faults = fs::File::create(folder.join("faults.jsonl"))?;
         for (part, ledger) in &self.parts {
@@ -218,31 +191,22 @@ impl Findings {
             }
         }
         let mut slowest = fs::File::create(folder.join("slowest.jsonl"))?;
-        for (call, name) in CALLS {
-            let time = self.tally.time(call);
-            if time.count > 0 {
-                let shapes = Shapes::of(self.seed, time.worst);
-                let case = Case::of(&shapes, self.seed, time.worst);
-                let what = format!("seed {} index {}: {name}: {:.0} evaluations", self.seed, time.worst, time.most);
-                writeln!(slowest, "{}", serde_json::to_string(&Line::of(&case, what)).map_err(io::Error::other)?)?;
-            }
+        for ((_, name), time) in CALLS.iter().zip(&self.tally.seconds).filter(|(_, time)| time.count > 0) {
+            let shapes = Shapes::of(self.seed, time.worst);
+            let what = format!("seed {} index {}: {name}: {:.1} µs", self.seed, time.worst, 1e6 * time.most);
+            let line = Case::of(&shapes, self.seed, time.worst).line(what);
+            writeln!(slowest, "{}", serde_json::to_string(&line).map_err(io::Error::other)?)?;
         }
         Ok(())
     }
 
     fn summary(&self) -> Summary<'_> {
         let t = &self.tally;
-        let calls = CALLS.iter().zip(t.times.iter().zip(&t.seconds)).zip(&t.paths);
-        let calls = calls.map(|(((_, call), (time, seconds)), paths)| Calls {
+        let calls = CALLS.iter().zip(&t.seconds).zip(&t.paths);
+        let calls = calls.map(|(((_, call), time), paths)| Calls {
             call,
             count: time.count,
-            median: time.quantile(0.5),
-            p99: time.quantile(0.99),
-            p99_99: time.quantile(0.9999),
-            slowest: time.most,
-            slowest_over_median: over_median(time),
-            slowest_index: time.worst,
-            microseconds: Microseconds::of(seconds),
+            microseconds: Microseconds::of(time),
             slowest_family: FAMILIES[family_of(time.worst)].name,
             paths: PATHS.iter().copied().zip(paths.iter().copied()).filter(|(_, count)| *count > 0).collect(),
             histogram: time.filled().collect(),
@@ -255,40 +219,32 @@ impl Findings {
             extended: of.extended,
             gap: Spread::of(&of.gap),
             error: Spread::of(&of.error),
-            point_bound: Spread::of(&of.point_bound),
             point_error: Spread::of(&of.point_error),
-            normal_error: Spread::of(&of.normal_error),
-            gap_over_rounding: Spread::of(&of.looseness),
             time: Spread::of(&of.time),
             error_histogram: of.error.filled().collect(),
             time_histogram: of.time.filled().collect(),
         };
         Summary {
             targets: self.targets(),
-            poses: t.pairs,
+            poses: t.ledger.cases,
             wanted: self.wanted,
             seed: self.seed,
             first: self.first,
             interrupted: self.interrupted,
-            walks: self.walks,
-            walk_steps: t.walk_steps,
             failures: self.failures(),
-            failures_by_kind: &t.failures,
+            failures_by_kind: t.ledger.by_fault(),
             settle_every: self.settle_every,
             put_to_second_solver: t.settled,
             doubts: &t.doubts,
-            settled: t.judged,
-            unsettled: t.unjudged,
-            rounding_limited: t.rounding_limited as f64 / t.pairs.max(1) as f64,
+            settled: t.ledger.judged - t.ledger.unsettled,
+            unsettled: t.ledger.unsettled,
+            rounding_limited: t.rounding_limited as f64 / t.ledger.cases.max(1) as f64,
             other_digits_in_other_units: t.unit_digits,
             cone_program: Cone { answered: t.cone_program[0], gave_up: t.cone_program[1] },
-            evaluation_ns: 1e9 * self.evaluation,
-            slowest_over_median: over_median(t.time(Call::Full)),
             calls: calls.collect(),
             families: FAMILIES.iter().map(|f| f.name).zip(&t.families).map(family).collect(),
             sweeps: &self.sweeps,
             parts: self.parts.iter().map(|(part, ledger)| PartSummary::of(part, ledger)).collect(),
-            mass: &self.mass,
             seconds: self.seconds,
             machine: &self.machine,
         }
@@ -296,7 +252,7 @@ impl Findings {
 
     /// No failures, and the tail of the times of each kind of call that was made.
     fn targets(&self) -> Vec<Target> {
-        let mut targets = vec![Target::at_most("failures", 0.0, self.tally.failures() as f64)];
+        let mut targets = vec![Target::at_most("failures", 0.0, self.tally.ledger.failures() as f64)];
         for ((_, call), seconds) in CALLS.iter().zip(&self.tally.seconds).filter(|(_, seconds)| seconds.count > 0) {
             let of = Microseconds::of(seconds);
             targets.push(Target::at_most(format!("{call}: p99.99, ms"), MOST_P99_99, 1e-3 * of.p99_99));
@@ -306,24 +262,19 @@ impl Findings {
             targets.push(Target::at_most(format!("{part}: failures"), 0.0, ledger.failures() as f64));
             targets.push(Target::at_most(format!("{part}: unsettled"), MOST_UNSETTLED, ledger.share_unsettled()));
         }
-        if self.mass.particles > 0 {
-            let failures = self.mass.failures() as f64;
-            targets.push(Target::at_most("mass properties with too small an estimate", 0.0, failures));
-        }
         targets
     }
 
     /// Tables by family, call and motion, and the targets.
     pub fn print(&self) {
-        self.mass.print();
         let t = &self.tally;
         println!(
-            "\n| family | poses | failed | gap, median | worst | error of s, median | worst | point, median | worst | time, median | p99.99 | slowest |"
+            "\n| family | poses | failed | gap, median | worst | error of s, median | worst | point, median | worst | time, µs, median | p99.99 | slowest |"
         );
         println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
         for (family, of) in FAMILIES.iter().zip(&t.families).filter(|(_, of)| of.pairs > 0) {
             println!(
-                "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.0} | {:.0} | {:.0} |",
+                "| {} | {} | {} | {} | {} | {} | {} | {} | {} | {:.1} | {:.1} | {:.1} |",
                 family.name,
                 of.pairs,
                 of.failures,
@@ -333,16 +284,14 @@ impl Findings {
                 number(of.error.most),
                 number(of.point_error.quantile(0.5)),
                 number(of.point_error.most),
-                of.time.quantile(0.5),
-                of.time.quantile(0.9999),
-                of.time.most,
+                1e6 * of.time.quantile(0.5),
+                1e6 * of.time.quantile(0.9999),
+                1e6 * of.time.most,
             );
         }
-        println!(
-            "\n| call | count | median | p99 | p99.99 | slowest | its pair | slowest / median | µs: median | p99 | p99.99 | slowest | its pair | paths |"
-        );
-        println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-        for (((_, name), (time, seconds)), paths) in CALLS.iter().zip(t.times.iter().zip(&t.seconds)).zip(&t.paths) {
+        println!("\n| call | count | µs: median | p99 | p99.99 | slowest | its pair | paths |");
+        println!("|---|---|---|---|---|---|---|---|");
+        for (((_, name), time), paths) in CALLS.iter().zip(&t.seconds).zip(&t.paths) {
             let share = |count: &u64| 100.0 * *count as f64 / time.count.max(1) as f64;
             let paths: Vec<String> = PATHS
                 .iter()
@@ -350,16 +299,10 @@ impl Findings {
                 .filter(|(_, count)| **count > 0)
                 .map(|(path, count)| format!("{path} {:.3} %", share(count)))
                 .collect();
-            let absolute = Microseconds::of(seconds);
+            let absolute = Microseconds::of(time);
             println!(
-                "| {name} | {} | {:.0} | {:.0} | {:.0} | {:.0} | {} | {:.0} | {:.1} | {:.1} | {:.1} | {:.1} | {} | {} |",
+                "| {name} | {} | {:.1} | {:.1} | {:.1} | {:.1} | {} | {} |",
                 time.count,
-                time.quantile(0.5),
-                time.quantile(0.99),
-                time.quantile(0.9999),
-                time.most,
-                time.worst,
-                over_median(time),
                 absolute.median,
                 absolute.p99,
                 absolute.p99_99,
@@ -380,22 +323,17 @@ impl Findings {
             }
         }
         println!(
-            "\nTimes in evaluations of the pair itself; one of 5 + 5 planes takes {:.1} ns. Put to the second solver: {} \
-             of {} pairs, doubtful {:?}. Against 32 digits: {} answers settled, {} not. Cone program: {} agreed or were judged, {} gave up. Walks: {} steps.",
-            1e9 * self.evaluation,
+            "\nPut to the second solver: {} of {} pairs, doubtful {:?}. Against 32 digits: {} answers settled, {} not. Cone \
+             program: {} agreed or were judged, {} gave up.",
             t.settled,
-            t.pairs,
+            t.ledger.cases,
             t.doubts,
-            t.judged,
-            t.unjudged,
+            t.ledger.judged - t.ledger.unsettled,
+            t.ledger.unsettled,
             t.cone_program[0],
-            t.cone_program[1],
-            t.walk_steps
+            t.cone_program[1]
         );
-        for found in t.found.iter().take(MOST_PRINTED) {
-            let detail: String = found.detail.chars().take(180).collect();
-            println!("{:?}, {}, index {}: {detail}", found.failure, found.family, found.index);
-        }
+        t.ledger.print("poses");
         for (part, ledger) in &self.parts {
             ledger.print(part);
         }
@@ -405,16 +343,14 @@ impl Findings {
         }
         println!(
             "\n{} poses in {:.0} s, seed {}: {} failures {:?}",
-            t.pairs,
+            t.ledger.cases,
             self.seconds,
             self.seed,
             self.failures(),
-            t.failures
+            t.ledger.by_fault()
         );
     }
 }
-
-const MOST_PRINTED: usize = 30;
 
 fn number(value: f64) -> String {
     if value.is_finite() { format!("{value:.1e}") } else { "-".into() }

@@ -1,7 +1,5 @@
 //! What tests, benchmarks, tools and fuzz targets share: bodies, references and judges. Of no use to users.
 
-pub mod balls;
-pub mod double;
 pub mod fuzz;
 pub mod machine;
 pub mod masonry;

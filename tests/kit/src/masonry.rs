@@ -26,43 +26,12 @@ pub fn block(height: f64, angle: f64, friction: f64) -> Scene {
 
 /// A running-bond wall of `rows` courses of `width` bricks (2 × 1 × 1) pushed sideways by a share of its weight.
 pub fn wall(width: usize, rows: usize, friction: f64) -> Scene {
-    let mut bodies = vec![Body::held(v(0.0, 0.0, -1.0))];
-    let mut spans: Vec<Vec<(f64, f64, usize)>> = vec![vec![(-1e3, 1e3, 0)]];
-    let mut contacts = Vec::new();
-    for row in 0..rows {
-        let mut edges: Vec<f64> = (0..=width).map(|i| 2.0 * i as f64).collect();
-        if row % 2 == 1 {
-            edges =
-                [0.0].into_iter().chain((0..width).map(|i| 2.0 * i as f64 + 1.0)).chain([2.0 * width as f64]).collect();
-        }
-        let mut course = Vec::new();
-        for pair in edges.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            let index = bodies.len();
-            let mut body = Body::free(v(0.5 * (a + b), 0.5, row as f64 + 0.5), v(0.0, 0.0, -(b - a)));
-            body.live = Load::force(v(b - a, 0.0, 0.0));
-            bodies.push(body);
-            for &(c, d, other) in spans.last().unwrap() {
-                let (low, high) = (a.max(c), b.min(d));
-                if high > low + 1e-9 {
-                    contacts.push(Contact::new(
-                        [other, index],
-                        level([low, 0.0], [high, 1.0], row as f64),
-                        Vector3::z(),
-                        friction,
-                    ));
-                }
-            }
-            if let Some(&(_, _, before)) = course.last() {
-                let z = row as f64;
-                let corners = vec![v(a, 0.0, z), v(a, 1.0, z), v(a, 1.0, z + 1.0), v(a, 0.0, z + 1.0)];
-                contacts.push(Contact::new([before, index], corners, Vector3::x(), friction));
-            }
-            course.push((a, b, index));
-        }
-        spans.push(course);
-    }
-    Scene { bodies, contacts }
+    let shifted = |i: usize| if i == 0 || i == width { 0.5 } else { 1.0 };
+    let course = |row: usize| match row % 2 {
+        0 => vec![1.0; width],
+        _ => (0..=width).map(shifted).collect(),
+    };
+    masonry(&(0..rows).map(course).collect(), [2.0, 1.0], friction)
 }
 
 /// Widths of the bricks of each course, negative where there is an opening.
@@ -76,18 +45,17 @@ pub fn ferris_tin_loi(wall: usize) -> Scene {
     let [full, offset] = [vec![1.0; 4], vec![0.5, 1.0, 1.0, 1.0, 0.5]];
     let [jamb, reveal] = [vec![0.5, 1.0, -1.0, 1.0, 0.5], vec![1.0, 0.5, -1.0, 0.5, 1.0]];
     let window = [&full, &offset, &full, &jamb, &reveal, &jamb, &reveal, &jamb, &full, &offset, &full];
-    masonry(&match wall {
+    let courses = match wall {
         1 => plain(6),
         2 => plain(10),
         _ => window.into_iter().cloned().collect(),
-    })
+    };
+    masonry(&courses, [0.4, 0.175], 0.65)
 }
 
-/// A wall of courses on a held floor, pushed along x by a share of its weight.
-fn masonry(courses: &Courses) -> Scene {
-    const LENGTH: f64 = 0.4;
-    const HEIGHT: f64 = 0.175;
-    const FRICTION: f64 = 0.65;
+/// A wall of courses on a held floor, of bricks of this length and height and the weight 1, pushed along x by a share
+/// of its weight.
+fn masonry(courses: &Courses, [length, height]: [f64; 2], friction: f64) -> Scene {
     let mut bricks = Vec::new();
     for (row, widths) in courses.iter().enumerate() {
         let mut x = 0.0;
@@ -101,21 +69,21 @@ fn masonry(courses: &Courses) -> Scene {
     let mut bodies = vec![Body::held(v(0.0, 0.0, -1.0))];
     let mut contacts = Vec::new();
     for (i, &(row, a, b)) in bricks.iter().enumerate() {
-        let centre = v(0.5 * (a + b) * LENGTH, 0.5, (row as f64 + 0.5) * HEIGHT);
+        let centre = v(0.5 * (a + b) * length, 0.5, (row as f64 + 0.5) * height);
         bodies.push(Body { live: Load::force(v(b - a, 0.0, 0.0)), ..Body::free(centre, v(0.0, 0.0, a - b)) });
-        let bed = |c: f64, d: f64| level([c * LENGTH, 0.0], [d * LENGTH, 1.0], row as f64 * HEIGHT);
+        let bed = |c: f64, d: f64| level([c * length, 0.0], [d * length, 1.0], row as f64 * height);
         if row == 0 {
-            contacts.push(Contact::new([0, i + 1], bed(a, b), Vector3::z(), FRICTION));
+            contacts.push(Contact::new([0, i + 1], bed(a, b), Vector3::z(), friction));
         }
         for (j, &(other, c, d)) in bricks.iter().enumerate() {
             let (low, high) = (a.max(c), b.min(d));
             if other + 1 == row && high - low > 1e-9 {
-                contacts.push(Contact::new([j + 1, i + 1], bed(low, high), Vector3::z(), FRICTION));
+                contacts.push(Contact::new([j + 1, i + 1], bed(low, high), Vector3::z(), friction));
             }
             if other == row && (d - a).abs() < 1e-9 {
                 let head = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
-                let corner = |(y, z): (f64, f64)| v(a * LENGTH, y, (row as f64 + z) * HEIGHT);
-                contacts.push(Contact::new([j + 1, i + 1], head.map(corner).to_vec(), Vector3::x(), FRICTION));
+                let corner = |(y, z): (f64, f64)| v(a * length, y, (row as f64 + z) * height);
+                contacts.push(Contact::new([j + 1, i + 1], head.map(corner).to_vec(), Vector3::x(), friction));
             }
         }
     }

@@ -58,6 +58,21 @@ impl Random {
         Vector3::new(self.normal(), self.normal(), self.normal()).normalize()
     }
 
+    /// The same, or on the unit circle of the plane z = 0.
+    pub fn direction_in(&mut self, is_flat: bool) -> Vector3<f64> {
+        if !is_flat {
+            return self.direction();
+        }
+        let (sin, cos) = (TAU * self.uniform()).sin_cos();
+        Vector3::new(cos, sin, 0.0)
+    }
+
+    /// w, x, y, z of any turn, all equally likely, or of one about z.
+    pub fn turn_in(&mut self, is_flat: bool) -> [f64; 4] {
+        let q = [self.normal(), self.normal(), self.normal(), self.normal()];
+        if is_flat { [q[0], 0.0, 0.0, q[3]] } else { q }
+    }
+
     /// Any orientation, all equally likely, at a position.
     pub fn pose(&mut self, position: Vector3<f64>) -> Pose {
         let quaternion = [self.normal(), self.normal(), self.normal(), self.normal()];

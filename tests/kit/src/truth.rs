@@ -1,24 +1,8 @@
 //! Reads the pairs that were solved to 40 digits.
 
+pub use crate::pair_line::{Place, Shape};
 use nalgebra::Vector3;
-use potential_particles::{Particle, Plane, Pose};
 use serde::Deserialize;
-
-#[derive(Deserialize)]
-pub struct Shape {
-    pub n: Vec<[f64; 3]>,
-    pub d: Vec<f64>,
-    pub r: f64,
-    pub k: f64,
-    #[serde(rename = "R")]
-    pub shadow_radius: f64,
-}
-
-#[derive(Deserialize)]
-pub struct Place {
-    pub pos: [f64; 3],
-    pub q: [f64; 4],
-}
 
 /// Decimal strings of 40 digits. [`number`] and [`vector`] round them to doubles, [`minus`] subtracts them without
 /// rounding.
@@ -49,20 +33,6 @@ pub struct Pair {
     pub b: Place,
     pub family: String,
     pub truth: Truth,
-}
-
-impl Shape {
-    pub fn particle(&self) -> Particle {
-        let planes: Vec<Plane> =
-            self.n.iter().zip(&self.d).map(|(n, d)| Plane { normal: Vector3::from(*n), offset: *d }).collect();
-        Particle::new(&planes, self.r, self.k, self.shadow_radius).expect("a particle of the truth data is valid")
-    }
-}
-
-impl Place {
-    pub fn pose(&self) -> Pose {
-        Pose::new(self.pos, self.q).expect("a pose of the truth data is valid")
-    }
 }
 
 pub fn number(text: &str) -> f64 {

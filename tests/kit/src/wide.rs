@@ -20,6 +20,11 @@ impl Wide {
         self.high
     }
 
+    /// The two doubles whose sum it is.
+    pub fn parts(self) -> (f64, f64) {
+        (self.high, self.low)
+    }
+
     /// a − b without rounding.
     pub fn difference(a: f64, b: f64) -> Self {
         let (high, low) = two_sum(a, -b);

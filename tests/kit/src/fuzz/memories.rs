@@ -5,7 +5,7 @@ use super::bytes::Bytes;
 use super::detect::pose;
 use super::particle;
 use super::whole::Whole;
-use potential_particles::{Contact, Flags, Formulation, PairState, Settings, detect};
+use potential_particles::{Formulation, PairState, Settings, detect};
 
 pub fn run(data: &[u8]) {
     let mut bytes = Bytes(data);
@@ -34,15 +34,7 @@ pub fn run(data: &[u8]) {
     for _ in 0..2 {
         let warm = detect(&a, &at_a, &b, &at_b, &settings, Some(&mut memory)).expect("an answer, as without a memory");
         warm.assert_whole();
-        same(&cold, &warm);
-    }
-}
-
-fn same(cold: &Contact, warm: &Contact) {
-    let rejected = |c: &Contact| c.flags.contains(Flags::REJECTED);
-    let near = |c: &Contact| !rejected(c) && (c.s - 1.0).abs() <= c.gap;
-    assert!(cold.kind == warm.kind || near(cold) || near(warm), "{cold:?} {warm:?}");
-    if !rejected(cold) && !rejected(warm) && cold.formulation == warm.formulation {
-        assert!((cold.s - warm.s).abs() <= cold.gap + warm.gap, "{cold:?} {warm:?}");
+        let wrong = crate::stress::memories::wrong(&Ok(cold), &Ok(warm));
+        assert!(wrong.is_none(), "{wrong:?}: {cold:?} {warm:?}");
     }
 }

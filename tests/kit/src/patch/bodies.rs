@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 use potential_particles::{Contact, Kind, Particle, Plane, Pose, Settings, detect};
+use std::f64::consts::TAU;
 
 /// Numbers that look like chance: the same in every run.
 pub struct Chance(u64);
@@ -142,15 +143,45 @@ impl Pair {
         Self::at_overlap(a, &turn_a, b, &turn_b, &chance.direction(), overlap)
     }
 
+    /// Two polygons of the plane: a rounded square, and a pentagon whose corners lie a half away.
+    pub fn flat(r: f64, k: f64, depth: f64, chance: &mut Chance) -> Self {
+        let corners = |count: u32, reach: f64| {
+            let corner = |i: u32| (TAU * f64::from(i) / f64::from(count)).sin_cos();
+            (0..count).map(corner).map(|(sin, cos)| [reach * cos, reach * sin]).collect::<Vec<_>>()
+        };
+        let a = Particle::polygon(&corners(4, 0.5f64.sqrt()), 0.3 * r, k).expect("a square");
+        let b = Particle::polygon(&corners(5, 0.5), 0.3 * r, k).expect("a pentagon");
+        let [turn_a, turn_b, way] = [0; 3].map(|_| TAU * chance.uniform());
+        let [turn_a, turn_b] = [turn_a, turn_b].map(|angle| Rotation3::new(angle * Vector3::z()).into_inner());
+        Self::at_overlap(a, &turn_a, b, &turn_b, &Vector3::new(way.cos(), way.sin(), 0.0), depth * 0.6 * r)
+    }
+
+    pub fn is_flat(&self) -> bool {
+        self.a.is_in_plane()
+    }
+
+    /// Any direction in which a body may move, and one about which it may turn.
+    pub fn directions(&self, chance: &mut Chance) -> [Vector3<f64>; 2] {
+        let [shift, turn] = [chance.direction(), chance.direction()];
+        if !self.is_flat() {
+            return [shift, turn];
+        }
+        [Vector3::new(shift.x, shift.y, 0.0).normalize(), turn.z.signum() * Vector3::z()]
+    }
+
     /// With B moved by a shift and turned by a rotation vector about its position.
     pub fn moved(&self, shift: &Vector3<f64>, turn: &Vector3<f64>) -> Self {
-        let rotation =
-            UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner() * self.pose_b.rotation();
-        let position = self.pose_b.position() + shift;
-        let pose_b = Pose::from_rotation(position.into(), &rotation).unwrap();
+        let pose_b = moved(&self.pose_b, self.pose_b.position(), shift, turn);
         let contact = contact(&self.a, &self.pose_a, &self.b, &pose_b);
         Self { a: self.a.clone(), b: self.b.clone(), pose_a: self.pose_a, pose_b, contact }
     }
+}
+
+/// A pose after a shift and a turn about a point.
+pub fn moved(pose: &Pose, about: &Vector3<f64>, shift: &Vector3<f64>, turn: &Vector3<f64>) -> Pose {
+    let turn = UnitQuaternion::from_scaled_axis(*turn).to_rotation_matrix().into_inner();
+    let position = about + shift + turn * (pose.position() - about);
+    Pose::from_rotation(position.into(), &(turn * pose.rotation())).unwrap()
 }
 
 /// The triangles of a box, seen from outside.

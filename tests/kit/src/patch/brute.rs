@@ -295,6 +295,8 @@ fn halved(
 /// `half`: beyond this distance lies nothing of it. Much farther out both potentials may be equal on the other side of
 /// a body, too. Twice as far as the points of a patch will do: where it goes on there, that is seen.
 ///
+/// Of particles in the plane it is the integral over the one line there.
+///
 /// It is integrated twice, over lines in two directions that are along no side, and the difference tells how far either
 /// can be trusted: the line along which the outer integral has a kink may be missed.
 pub fn brute(
@@ -305,6 +307,11 @@ pub fn brute(
     sides: &[[f64; 3]],
     half: f64,
 ) -> Option<Brute> {
+    if a.0.is_in_plane() {
+        let frame =
+            Matrix3::from_columns(&[Vector3::z(), frame.column(2).cross(&Vector3::z()), frame.column(2).into()]);
+        return over_lines(a, b, origin, &frame, sides, half);
+    }
     let [first, second] = ANGLES.map(|angle: f64| {
         let (sin, cos) = angle.sin_cos();
         let turned = frame * Matrix3::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
@@ -331,6 +338,16 @@ fn over_lines(
     let body = |(particle, pose): (&Particle, &Pose)| Body::new(particle, pose, origin, frame);
     let length = a.0.depth_length() + b.map_or(0.0, |b| b.0.depth_length());
     let task = Task { a: body(a), b: b.map(body), sides: sides.to_vec(), half };
+    let whole = |sums: Values, reach: f64| {
+        let force = length * Vector3::new(sums[0], sums[1], sums[2]);
+        let torque = frame * (length * Vector3::new(sums[3], sums[4], sums[5]));
+        (force.z > 0.0).then_some(Brute { force: frame * force, torque, area: sums[6], reach, doubt: 0.0 })
+    };
+    if a.0.is_in_plane() {
+        let (s, v) = task.least(0.0);
+        let ends = [-half, half].map(|end| if s < 1.0 { rim(v, end, |v| task.s(0.0, v)) } else { 0.0 });
+        return whole(task.line(0.0), ends[1].max(-ends[0]));
+    }
     let (least_s, u) = least(-half, half, |u| (task.least(u).0, u));
     if !(least_s < 1.0) {
         return None;
@@ -355,10 +372,7 @@ fn over_lines(
         let part = integral(&places, &at);
         (0..7).for_each(|j| sums[j] += part[j]);
     }
-    let force = length * Vector3::new(sums[0], sums[1], sums[2]);
-    let torque = length * Vector3::new(sums[3], sums[4], sums[5]);
-    let reach = ends.iter().fold(0.0_f64, |most, end| most.max(end.abs()));
-    (force.z > 0.0).then_some(Brute { force: frame * force, torque: frame * torque, area: sums[6], reach, doubt: 0.0 })
+    whole(sums, ends.iter().fold(0.0_f64, |most, end| most.max(end.abs())))
 }
 
 /// A frame whose third axis is this.

@@ -3,3 +3,4 @@
 pub mod bodies;
 pub mod boundaries;
 pub mod brute;
+pub mod families;

@@ -1,10 +1,11 @@
 //! Random particles beside random planes and triangles, by seed and index: parallel to faces, at edges and corners,
 //! from just touching to through the centre. No solver is asked where to put them.
 
+use crate::pair_line::Place;
 use crate::random::Random;
-use crate::stress::cases::{Place, stream};
+use crate::stress::cases::{is_flat, stream};
 use crate::stress::placed_boundary::Boundary;
-use crate::stress::shapes::{Hull, Recipe, Sphericity, particle};
+use crate::stress::shapes::{Hull, Recipe, Sphericity, flattened, particle};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use potential_particles::{Particle, Plane, Settings};
 
@@ -92,13 +93,15 @@ pub fn place_of(particle: &Particle, random: &mut Random) -> Place {
         }
         _ => [0; 4].map(|_| random.normal()),
     };
-    let length = particle.bounding_radius();
+    let (length, flat) = (particle.bounding_radius(), particle.is_in_plane());
     let position = match random.whole(0, 5) {
         0 | 1 => Vector3::zeros(),
-        2 | 3 => length * random.power(-1.0, 1.0) * random.direction(),
-        _ => length * random.power(3.0, 6.5) * random.direction(),
+        2 | 3 => length * random.power(-1.0, 1.0) * random.direction_in(flat),
+        _ => length * random.power(3.0, 6.5) * random.direction_in(flat),
     };
-    Place { position: position.into(), orientation }
+    // That of a tilt alone would be none.
+    let orientation = if flat { [1.0 + orientation[0], 0.0, 0.0, orientation[3]] } else { orientation };
+    Place { position: position.into(), orientation, angle: None }
 }
 
 /// A point of the surface and the outward normal there, local frame, and how it was chosen.
@@ -115,7 +118,7 @@ fn touched(particle: &Particle, random: &mut Random) -> (Vector3<f64>, Vector3<f
             let (one, other) = (corners[random.whole(0, corners.len())], corners[random.whole(0, corners.len())]);
             (one + random.uniform() * (other - one), None, "at an edge")
         }
-        _ => (random.direction(), None, "anywhere"),
+        _ => (random.direction_in(particle.is_in_plane()), None, "anywhere"),
     };
     let way = way.try_normalize(0.0).unwrap_or_else(Vector3::x);
     let to = particle.surface_distance(&Vector3::zeros(), &way).unwrap_or(particle.bounding_radius());
@@ -138,12 +141,13 @@ fn depth(random: &mut Random) -> f64 {
 }
 
 /// The given direction but for a tilt: none, of rounding, or up to 1e-6.
-fn tilted(normal: &Vector3<f64>, random: &mut Random) -> Vector3<f64> {
+fn tilted(normal: &Vector3<f64>, flat: bool, random: &mut Random) -> Vector3<f64> {
     let tilt = [0.0, 0.0, 1e-16, 1e-15, 1e-12, 1e-9, 1e-6][random.whole(0, 7)];
     if tilt == 0.0 {
         return *normal;
     }
-    let across = normal.cross(&random.direction()).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
+    let about = if flat { Vector3::z() } else { random.direction() };
+    let across = normal.cross(&about).try_normalize(0.0).unwrap_or_else(Vector3::zeros);
     normal + tilt * random.uniform() * across
 }
 
@@ -195,7 +199,10 @@ pub fn settings(random: &mut Random) -> Settings {
 impl Case {
     pub fn of(seed: u64, index: u64) -> Self {
         let group = index / CASES_A_PARTICLE;
-        let (particle, name) = particle_of(&mut stream(seed, 11, group), group);
+        let (mut particle, name) = particle_of(&mut stream(seed, 11, group), group);
+        if is_flat(seed, 19, group) {
+            particle = flattened(&particle).unwrap_or(particle);
+        }
         let mut random = stream(seed, 12, index);
         let at = place_of(&particle, &mut random);
         let settings = settings(&mut random);
@@ -209,18 +216,19 @@ impl Case {
 pub fn beside(particle: &Particle, at: &Place, random: &mut Random) -> (Boundary, String) {
     let [w, x, y, z] = at.orientation;
     let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
-    let centre = Vector3::from(at.position);
+    let (centre, flat) = (Vector3::from(at.position), particle.is_in_plane());
     let (surface, outward, how) = touched(particle, random);
     // A face that is met at any place of it.
     let aside = if how == "parallel to a face" && random.uniform() < 0.5 {
-        let across = random.direction();
+        let across = random.direction_in(flat);
         particle.bounding_radius() * random.uniform() * (across - across.dot(&outward) * outward)
     } else {
         Vector3::zeros()
     };
     let point = centre + turn * (depth(random) * surface + aside);
-    let normal = turn * tilted(&outward, random);
-    if random.uniform() < 0.4 {
+    let normal = turn * tilted(&outward, flat, random);
+    // In the plane there are lines alone.
+    if random.uniform() < 0.4 || flat {
         let length = if random.uniform() < 0.5 { 1.0 } else { random.power(-3.0, 3.0) };
         let sign = if random.uniform() < 0.5 { 1.0 } else { -1.0 };
         let normal: Vector3<f64> = sign * length * normal;

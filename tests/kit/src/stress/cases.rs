@@ -1,12 +1,14 @@
 //! Random pairs by seed and index: shapes by family, places from far apart to one inside the other.
 //!
 //! No solver is asked where to put them: pairs that touch are built by laying one surface point on the other, with
-//! opposite normals where that is wanted. The same seed and index give the same pair, whatever the library does.
+//! opposite normals where that is wanted. The same seed and index give the same pair, whatever the library does. One
+//! pair of shapes in twenty, of every family, are those that planes cut out of the plane z = 0.
 
+use crate::pair_line::{Line, Place};
 use crate::random::Random;
-use crate::stress::shapes::{Hull, Recipe, Sphericity, particle};
+use crate::stress::shapes::{Hull, Recipe, Sphericity, in_plane, particle};
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Particle, Plane, Pose};
+use potential_particles::Particle;
 
 /// Poses of the same two shapes.
 pub const POSES_A_PAIR: u64 = 8;
@@ -29,20 +31,6 @@ pub fn family_of(index: u64) -> usize {
 pub fn next_group(index: u64) -> u64 {
     let (from, poses) = if index < BULK { (0, POSES_A_PAIR) } else { (BULK, POSES_A_PAIR_IN_BULK) };
     index + poses - (index - from) % poses
-}
-
-/// Where a body is.
-#[derive(Clone, Copy, Debug)]
-pub struct Place {
-    pub position: [f64; 3],
-    /// w, x, y, z; of any length.
-    pub orientation: [f64; 4],
-}
-
-impl Place {
-    pub fn pose(&self) -> Pose {
-        Pose::new(self.position, self.orientation).expect("finite numbers and a quaternion that is not zero")
-    }
 }
 
 /// How a family places its bodies.
@@ -170,25 +158,32 @@ impl Shapes {
     pub fn of(seed: u64, index: u64) -> Self {
         let (group, family) = (group_of(index), family_of(index));
         let mut random = stream(seed, 1, group);
-        let recipes = &FAMILIES[family].recipes;
-        let (mut a, mut b) = (particle(&recipes[0], &mut random), particle(&recipes[1], &mut random));
+        let draw = if is_flat(seed, 18, group) { in_plane } else { particle };
+        let [mut a, mut b] = FAMILIES[family].recipes.each_ref().map(|recipe| draw(recipe, &mut random));
         // "Units": micrometres in kilometres to the other way round, the same for both.
         if FAMILIES[family].name == "units" {
             let unit = 10f64.powf(18.0 * random.uniform());
-            (a, b) = (scaled(&a, unit), scaled(&b, unit));
+            [a, b] = [a, b].map(|particle| particle.scaled(unit).expect("a particle is one in any unit"));
         }
         if random.uniform() < 0.5 {
             std::mem::swap(&mut a, &mut b);
         }
         Self { a, b, group, family }
     }
+
+    /// Those of a line, of no family.
+    pub fn of_line(line: &Line) -> Self {
+        Self { a: line.shape_a.particle(), b: line.shape_b.particle(), group: 0, family: 0 }
+    }
+
+    pub fn is_flat(&self) -> bool {
+        self.a.is_in_plane()
+    }
 }
 
-/// The particle in another unit of length.
-pub fn scaled(particle: &Particle, unit: f64) -> Particle {
-    let planes: Vec<Plane> = particle.planes().map(|p| Plane { offset: unit * p.offset, ..p }).collect();
-    let (r, shadow) = (unit * particle.rounding_radius(), unit * particle.shadow_radius());
-    Particle::new(&planes, r, particle.sphericity(), shadow).expect("a particle is one in any unit")
+/// Whether the shapes of a group lie in the plane.
+pub fn is_flat(seed: u64, kind: u64, group: u64) -> bool {
+    stream(seed, kind, group).uniform() < 0.05
 }
 
 impl<'a> Case<'a> {
@@ -197,18 +192,31 @@ impl<'a> Case<'a> {
         assert_eq!(shapes.group, group_of(index));
         let family = &FAMILIES[shapes.family];
         let mut random = stream(seed, 2, index);
-        let orientation_a = orientation(family.turned, &mut random);
+        let flat = shapes.is_flat();
+        let orientation_a = orientation(family.turned, flat, &mut random);
         let (relative, orientation_b) = place(shapes, family, &orientation_a, &mut random);
         let length = shapes.a.bounding_radius().max(shapes.b.bounding_radius());
         let origin = if family.far > 0.0 {
-            length * 10f64.powf(family.far * random.uniform()) * random.direction()
+            length * 10f64.powf(family.far * random.uniform()) * random.direction_in(flat)
         } else if random.uniform() < 0.5 {
-            length * random.direction()
+            length * random.direction_in(flat)
         } else {
             Vector3::zeros()
         };
-        let at = |position: Vector3<f64>, orientation| Place { position: position.into(), orientation };
+        let mut at = |position: Vector3<f64>, orientation: [f64; 4]| {
+            // Of every other turn in the plane the angle is given, now and then with many whole turns.
+            let angle = (flat && random.uniform() < 0.5).then(|| {
+                let turns = if random.uniform() < 0.2 { random.whole(0, 1_000_000) as f64 } else { 0.0 };
+                2.0 * orientation[3].atan2(orientation[0]) + std::f64::consts::TAU * turns
+            });
+            Place { position: position.into(), orientation, angle }
+        };
         Self { shapes, at_a: at(origin, orientation_a), at_b: at(origin + relative, orientation_b) }
+    }
+
+    /// The pair, for whoever solves it again.
+    pub fn line(&self, what: String) -> Line {
+        Line::of(&self.shapes.a, &self.at_a, &self.shapes.b, &self.at_b, what)
     }
 
     pub fn family(&self) -> &'static str {
@@ -216,9 +224,9 @@ impl<'a> Case<'a> {
     }
 }
 
-fn orientation(turned: Turned, random: &mut Random) -> [f64; 4] {
+fn orientation(turned: Turned, flat: bool, random: &mut Random) -> [f64; 4] {
     if turned == Turned::Anyhow && random.uniform() > 0.1 {
-        return [random.normal(), random.normal(), random.normal(), random.normal()];
+        return random.turn_in(flat);
     }
     let exact = [
         [1.0, 0.0, 0.0, 0.0],
@@ -230,7 +238,12 @@ fn orientation(turned: Turned, random: &mut Random) -> [f64; 4] {
         [1.0, 0.0, 0.0, 0.414_213_562_373_095_05],
     ][random.whole(0, 7)];
     let tilt = if random.uniform() < 0.5 { 0.0 } else { 10f64.powf(-17.0 + 16.0 * random.uniform()) };
-    exact.map(|c| c + tilt * random.normal())
+    let [w, x, y, z] = exact.map(|c| c + tilt * random.normal());
+    match flat {
+        true if (w, z) == (0.0, 0.0) => [1.0, 0.0, 0.0, 0.0],
+        true => [w, 0.0, 0.0, z],
+        false => [w, x, y, z],
+    }
 }
 
 fn turn([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
@@ -240,6 +253,7 @@ fn turn([w, x, y, z]: [f64; 4]) -> UnitQuaternion<f64> {
 /// Position of B relative to A, world axes, and orientation of B.
 fn place(shapes: &Shapes, family: &Family, of_a: &[f64; 4], random: &mut Random) -> (Vector3<f64>, [f64; 4]) {
     let (a, b) = (&shapes.a, &shapes.b);
+    let flat = shapes.is_flat();
     let small = a.bounding_radius().min(b.bounding_radius());
     let contact = match family.contact {
         Contact::Any => match random.whole(0, 10) {
@@ -252,15 +266,15 @@ fn place(shapes: &Shapes, family: &Family, of_a: &[f64; 4], random: &mut Random)
         Contact::Coincident => [Contact::Coincident, Contact::Contained][random.whole(0, 2)],
         contact => contact,
     };
-    let free = orientation(family.turned, random);
+    let free = orientation(family.turned, flat, random);
     let sign = |random: &mut Random| if random.uniform() < 0.7 { -1.0 } else { 1.0 };
     match contact {
         Contact::Coincident => {
             let off = if random.uniform() < 0.4 { 0.0 } else { small * 10f64.powf(-16.0 + 15.0 * random.uniform()) };
-            (off * random.direction(), free)
+            (off * random.direction_in(flat), free)
         }
         Contact::Contained => {
-            let way = random.direction();
+            let way = random.direction_in(flat);
             let to = a.surface_distance(&Vector3::zeros(), &way).unwrap_or(0.0);
             (turn(*of_a) * (random.uniform() * to * way), free)
         }
@@ -269,14 +283,14 @@ fn place(shapes: &Shapes, family: &Family, of_a: &[f64; 4], random: &mut Random)
             let (low, high) = if let Contact::Touching(low, high) = contact { (low, high) } else { (-9.0, -0.5) };
             let ((on_a, out_a), (on_b, out_b)) = (touched(a, edges, random), touched(b, edges, random));
             let normal = turn(*of_a) * out_a;
-            let spin = UnitQuaternion::from_axis_angle(
-                &nalgebra::Unit::new_normalize(normal),
-                std::f64::consts::TAU * random.uniform(),
-            );
+            let about = |axis: Vector3<f64>, angle: f64| {
+                UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle)
+            };
+            let spin = about(normal, if flat { 0.0 } else { std::f64::consts::TAU * random.uniform() });
             let first = UnitQuaternion::rotation_between(&out_b, &-normal).unwrap_or_else(|| {
                 // Exactly opposite: half a turn about any axis at right angles.
-                let across = normal.cross(&Vector3::ith(normal.iamin(), 1.0)).normalize();
-                UnitQuaternion::from_axis_angle(&nalgebra::Unit::new_unchecked(across), std::f64::consts::PI)
+                let across = if flat { Vector3::z() } else { normal.cross(&Vector3::ith(normal.iamin(), 1.0)) };
+                about(across, std::f64::consts::PI)
             });
             let turned = spin * first;
             let apart = sign(random) * small * 10f64.powf(low + (high - low) * random.uniform());
@@ -290,16 +304,17 @@ fn place(shapes: &Shapes, family: &Family, of_a: &[f64; 4], random: &mut Random)
             let back = turn(free).inverse() * -normal;
             let to = b.surface_distance(&Vector3::zeros(), &back).unwrap_or(0.0);
             let apart = sign(random) * small * 10f64.powf(low + (high - low) * random.uniform());
-            let aside = small * random.uniform() * random.direction();
+            let aside = small * random.uniform() * random.direction_in(flat);
             let relative = turn(*of_a) * on_a + (to + apart) * normal + (aside - aside.dot(&normal) * normal);
             (relative, free)
         }
-        _ => ((a.bounding_radius() + b.bounding_radius()) * random.uniform() * random.direction(), free),
+        _ => ((a.bounding_radius() + b.bounding_radius()) * random.uniform() * random.direction_in(flat), free),
     }
 }
 
 /// A surface point and the outward normal there, local frame; next to corners and edges if wanted.
 fn touched(particle: &Particle, edges: bool, random: &mut Random) -> (Vector3<f64>, Vector3<f64>) {
+    let flat = particle.is_in_plane();
     let corners = particle.bounding_corners();
     let way = if edges && corners.len() > 1 {
         let corner = corners[random.whole(0, corners.len())];
@@ -312,7 +327,7 @@ fn touched(particle: &Particle, edges: bool, random: &mut Random) -> (Vector3<f6
             0 if particle.plane_count() > 0 => {
                 particle.planes().nth(random.whole(0, particle.plane_count())).map_or(Vector3::x(), |p| p.normal)
             }
-            _ => random.direction(),
+            _ => random.direction_in(flat),
         }
     };
     let way = way.try_normalize(0.0).unwrap_or_else(Vector3::x);

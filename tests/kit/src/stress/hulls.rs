@@ -144,7 +144,7 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     };
     let outside = planes.iter().map(above).fold(f64::NEG_INFINITY, f64::max);
     if !(outside <= ROUNDING * extent) {
-        fault(Fault::LostContact, format!("a point lies {:e} of the extent outside", outside / extent));
+        fault(Fault::OffSurface, format!("a point lies {:e} of the extent outside", outside / extent));
     }
     if planes.len() > faces.len() {
         fault(Fault::Malformed, format!("{} planes of {} faces", planes.len(), faces.len()));

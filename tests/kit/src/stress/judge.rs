@@ -3,66 +3,19 @@
 mod definition;
 mod solutions;
 
-use crate::double::{Placed, Shape};
 use crate::random::Random;
-use crate::stress::cases::{Case, Place, scaled};
-use crate::stress::clock::{self, Call, Clock};
+use crate::stress::cases::Case;
+use crate::stress::clock::{Call, Clock};
+use crate::stress::ledger::Fault;
 use crate::stress::reference::Body;
+pub use definition::stays_in_plane;
 use definition::{batched, carried, enclosed, flips, in_other_units, says_something, surfaces, swapped, well_formed};
 use nalgebra::Vector3;
 use potential_particles::{Contact, DetectError, Flags, PairState, Particle, Pose, Settings};
 use serde::Serialize;
 use solutions::{by_cone_program, closest, settle, warm};
-use std::cell::OnceCell;
 use std::collections::BTreeSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
-
-/// What can be wrong.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Failure {
-    Panic,
-    /// No answer.
-    Error,
-    /// A field that should be a number, a unit vector or positive is not; or fields contradict each other.
-    Malformed,
-    /// s is further than its gap from the truth.
-    BoundOfS,
-    /// The contact point is further than its bound from the optimum.
-    BoundOfPoint,
-    /// Overlapping told of a separated pair or the other way round, beyond the gap.
-    WrongSide,
-    /// The gap is much larger than the rounding of the input explains.
-    LooseBound,
-    /// A surface point is not on its surface.
-    OffSurface,
-    /// The normal is not that of both surfaces.
-    Normal,
-    /// B moved by less than the overlap, and they overlap no more.
-    FlipsEarly,
-    /// B moved beyond the tangent planes, and they still overlap.
-    FlipsLate,
-    /// A with B is not B with A.
-    Swap,
-    /// Both turned and shifted together.
-    RigidMotion,
-    /// Another unit of length.
-    Units,
-    /// From memory and without.
-    Warm,
-    /// Rejected, although they overlap; or the quick answer has another kind than the full one.
-    Reject,
-    /// The cone program disagrees.
-    ConeProgram,
-    /// A jump along a smooth motion.
-    Jump,
-    /// s − gap < 1 < s + gap with a gap beyond 1e-2: touching cannot be told from apart.
-    SaysNothing,
-    /// A batch and a single call.
-    Batch,
-    /// The branch from A is off by more than its own rounding.
-    Branch,
-}
 
 /// What is measured of an answer.
 #[derive(Clone, Copy, Debug, Default)]
@@ -73,12 +26,6 @@ pub struct Measures {
     pub error: Option<f64>,
     /// Distance of the point to the optimum, over the smaller particle.
     pub point_error: Option<f64>,
-    /// Its bound, likewise.
-    pub point_bound: Option<f64>,
-    /// Angle of the normal to the true one.
-    pub normal_error: Option<f64>,
-    /// The gap over what the rounding of the input explains.
-    pub looseness: Option<f64>,
 }
 
 /// The path that answered a call.
@@ -113,7 +60,7 @@ pub enum Doubt {
 
 #[derive(Default)]
 pub struct Verdict {
-    pub failures: Vec<(Failure, String)>,
+    pub faults: Vec<(Fault, String)>,
     pub doubts: BTreeSet<Doubt>,
     /// Put to the second solver.
     pub settled: bool,
@@ -121,8 +68,6 @@ pub struct Verdict {
     pub paths: Vec<(Call, usize)>,
     /// Seconds.
     pub costs: Vec<(Call, f64)>,
-    /// Seconds of one evaluation of the pair.
-    pub evaluation: f64,
     /// Midway, closest P2 or P1 that the reference could not settle.
     pub unjudged: u32,
     pub judged: u32,
@@ -133,11 +78,11 @@ pub struct Verdict {
 }
 
 impl Verdict {
-    fn fail(&mut self, failure: Failure, detail: impl Into<String>) {
-        self.failures.push((failure, detail.into()));
+    fn fail(&mut self, failure: Fault, detail: impl Into<String>) {
+        self.faults.push((failure, detail.into()));
     }
 
-    fn check(&mut self, holds: bool, failure: Failure, detail: impl FnOnce() -> String) {
+    fn check(&mut self, holds: bool, failure: Fault, detail: impl FnOnce() -> String) {
         if !holds {
             self.fail(failure, detail());
         }
@@ -176,36 +121,28 @@ const CONE_PROGRAM_PLANES: usize = 80;
 
 pub const FULL: Settings = Settings::DEFAULT.with_solve_separated(true);
 
-/// What all poses of two shapes share: the shapes in another unit, and as the judge sees them.
+/// What all poses of two shapes share: the shapes in another unit.
 pub struct Shared {
     exponent: i32,
     in_other_units: [Particle; 2],
-    shapes: [Shape; 2],
-    evaluation: f64,
 }
 
 impl Shared {
     pub fn of(a: &Particle, b: &Particle, random: &mut Random) -> Self {
         let exponent = random.whole(0, 61) as i32 - 30;
         let unit = 2f64.powi(exponent);
-        // The planes of a sphere count for nothing.
-        let planes = |p: &Particle| if p.sphericity() == 1.0 { 0 } else { p.plane_count() };
-        Self {
-            exponent,
-            in_other_units: [scaled(a, unit), scaled(b, unit)],
-            shapes: [Shape::of(a), Shape::of(b)],
-            evaluation: clock::evaluation([planes(a), planes(b)]),
-        }
+        let scaled = |particle: &Particle| particle.scaled(unit).expect("a particle is one in any unit");
+        Self { exponent, in_other_units: [scaled(a), scaled(b)] }
     }
 }
 
 pub fn judge(case: &Case, shared: &Shared, trial: Trial, solver: Solver, random: &mut Random) -> Verdict {
-    let mut verdict = Verdict { evaluation: shared.evaluation, ..Verdict::default() };
+    let mut verdict = Verdict::default();
     let judged = catch_unwind(AssertUnwindSafe(|| all(case, shared, trial, solver, random, &mut verdict)));
     if let Err(panic) = judged {
         let text =
             panic.downcast_ref::<String>().cloned().or_else(|| panic.downcast_ref::<&str>().map(|s| (*s).into()));
-        verdict.fail(Failure::Panic, text.unwrap_or_default());
+        verdict.fail(Fault::Panic, text.unwrap_or_default());
     }
     verdict
 }
@@ -220,10 +157,9 @@ struct Scene<'a> {
     /// Of the coordinates in the world.
     far: f64,
     solver: Solver,
-    /// In doubles, and in 32 digits where doubles do not tell.
-    placed: [Placed<'a>; 2],
     case: &'a Case<'a>,
-    wide: OnceCell<[Body<'a>; 2]>,
+    /// In 32 digits.
+    bodies: [Body<'a>; 2],
 }
 
 impl Scene<'_> {
@@ -232,11 +168,22 @@ impl Scene<'_> {
     }
 
     fn moved(&self, by: Vector3<f64>) -> Pose {
-        Pose::new((self.at_b.position() + by).into(), self.at_b.orientation()).expect("finite")
+        self.case.at_b.at(self.at_b.position() + by).pose()
     }
 
-    fn bodies(&self) -> &[Body<'_>; 2] {
-        self.wide.get_or_init(|| bodies(self.case))
+    /// Any direction in which a body may move.
+    fn direction(&self, random: &mut Random) -> Vector3<f64> {
+        random.direction_in(self.case.shapes.is_flat())
+    }
+
+    /// The smaller size.
+    fn small(&self) -> f64 {
+        self.a.bounding_radius().min(self.b.bounding_radius())
+    }
+
+    /// Whether the minimiser need not be unique.
+    fn is_flat_faced(&self) -> bool {
+        self.a.sphericity().min(self.b.sphericity()) < 1e-12
     }
 }
 
@@ -258,16 +205,14 @@ fn all(
     let branch = (at_b.position() - at_a.position()).norm();
     let length = branch + a.bounding_radius() + b.bounding_radius();
     let far = at_a.position().amax().max(at_b.position().amax());
-    let [shape_a, shape_b] = &shared.shapes;
-    let placed = [Placed::new(shape_a, &at_a, at_b.position()), Placed::new(shape_b, &at_b, at_b.position())];
-    let scene = Scene { a, b, at_a, at_b, length, far, solver, placed, case, wide: OnceCell::new() };
+    let scene = Scene { a, b, at_a, at_b, length, far, solver, case, bodies: bodies(case) };
 
-    let mut clock = Clock::new(shared.evaluation);
+    let mut clock = Clock::default();
     let answer = clock.time(Call::Full, || scene.detect(&at_b, &FULL, None));
     let contact = match answer {
         Ok(contact) => contact,
         Err(error) => {
-            verdict.fail(Failure::Error, error);
+            verdict.fail(Fault::NotSolved, error);
             return None;
         }
     };
@@ -289,14 +234,14 @@ fn all(
             verdict.paths.push((Call::Quick, path(&quick)));
             let least = if quick.flags.contains(Flags::REJECTED) { quick.s } else { 0.0 };
             let right = quick.kind == contact.kind || (contact.s - 1.0).abs() <= contact.gap;
-            verdict.check(right && least <= contact.s + contact.gap, Failure::Reject, || {
+            verdict.check(right && least <= contact.s + contact.gap, Fault::Reject, || {
                 format!(
                     "quick {:?} {:?} s={:e}, full s={:e} ± {:e}",
                     quick.kind, quick.flags, quick.s, contact.s, contact.gap
                 )
             });
         }
-        Err(error) => verdict.fail(Failure::Error, format!("default settings: {error}")),
+        Err(error) => verdict.fail(Fault::NotSolved, format!("default settings: {error}")),
     }
     swapped(verdict, &scene, &contact);
     carried(verdict, case, &scene, &contact, random);
@@ -305,7 +250,7 @@ fn all(
 
     let unusual = verdict.paths.iter().any(|(_, path)| *path >= RARE);
     verdict.doubt(unusual, Doubt::Path);
-    verdict.doubt(!verdict.failures.is_empty(), Doubt::Failed);
+    verdict.doubt(!verdict.faults.is_empty(), Doubt::Failed);
     verdict.settled = trial.settle || !verdict.doubts.is_empty();
     if verdict.settled {
         settle(verdict, &scene, &contact, &start);
@@ -324,8 +269,7 @@ fn all(
 /// Both bodies in world axes about the centre of B.
 pub fn bodies<'a>(case: &Case<'a>) -> [Body<'a>; 2] {
     let origin = case.at_b.position;
-    let body = |particle: &'a Particle, at: &Place| Body::new(particle, at.position, at.orientation, origin);
-    [body(&case.shapes.a, &case.at_a), body(&case.shapes.b, &case.at_b)]
+    [Body::new(&case.shapes.a, &case.at_a, origin), Body::new(&case.shapes.b, &case.at_b, origin)]
 }
 
 /// A point relative to the centre of B, from the branch where there is one.

@@ -11,6 +11,7 @@
 //! proof: with a slope g into the boundary at a feasible point, F is nowhere on it below F − |g|²/4m, nor below F −
 //! |g|·D within a distance D.
 
+use crate::pair_line::Place;
 use crate::stress::placed_boundary::{Boundary, Edge, Part, Plane, Wide2, along, cross, dot, edges, length};
 use crate::wide::{Wide, Wide3};
 use potential_particles::Particle;
@@ -255,14 +256,8 @@ fn sphere_weight(particle: &Particle, least_sphericity: f64) -> Wide {
 }
 
 /// The least S of a particle whose sphericity is raised to `least_sphericity` (above 0, or k is) on a boundary.
-pub fn least(
-    particle: &Particle,
-    position: [f64; 3],
-    orientation: [f64; 4],
-    boundary: &Boundary,
-    least_sphericity: f64,
-) -> Least {
-    let plane = Plane::new(boundary, position, orientation);
+pub fn least(particle: &Particle, at: &Place, boundary: &Boundary, least_sphericity: f64) -> Least {
+    let plane = Plane::new(boundary, at);
     let m = sphere_weight(particle, least_sphericity);
     let reduced = Reduced::new(particle, &plane, m);
     // From a rounder particle to the given one, so that each search starts near its end.
@@ -284,7 +279,7 @@ pub fn least(
         candidates.push(Candidate { y, part: Part::Inside, plane, reduced });
     }
     for i in 0..sides {
-        let plane = Plane::along_edge(boundary, position, orientation, i);
+        let plane = Plane::along_edge(boundary, at, i);
         let reduced = Reduced::new(particle, &plane, m);
         let corners = plane.corners.as_ref().expect("a triangle has corners");
         let Edge { along: unit, length, .. } = &edges(corners)[i];

@@ -1,8 +1,9 @@
-//! What the parts beside the pairs found: counts by kind of fault and family, and some cases in full.
+//! What was found: counts by kind of fault and family, and some cases in full.
 
 use indicatif::ProgressBar;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::ops::Range;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
@@ -14,32 +15,57 @@ pub enum Fault {
     Panic,
     /// An error or a status where there is an answer.
     NotSolved,
-    /// Separated, although they overlap.
-    LostContact,
-    /// Overlapping, although they do not.
-    InventedContact,
-    /// s − gap < 1 < s + gap with a gap beyond 1e-2: touching cannot be told from apart.
-    SaysNothing,
-    /// s is further than its gap from that of the particle as it is regularised.
-    Gap,
-    /// s is further than its gap from that of the particle as given.
-    GapOfGiven,
-    /// A point is further than its bound from the minimiser.
-    PointBound,
     /// No number where there should be one, or fields that contradict each other.
     Malformed,
+    /// s is further than its gap from the truth.
+    BoundOfS,
+    /// The same, of the particle as given, without the regularisation.
+    GapOfGiven,
+    /// A point is further than its bound from the optimum.
+    BoundOfPoint,
+    /// Overlapping told of a separated pair or the other way round, beyond the gap.
+    WrongSide,
+    /// s − gap < 1 < s + gap with a gap beyond 1e-2: touching cannot be told from apart.
+    SaysNothing,
+    /// The gap is much larger than the rounding of the input explains.
+    LooseBound,
+    /// A surface point is not on its surface.
+    OffSurface,
     /// A point beside its boundary, or not on the part that is named.
     OffBoundary,
+    /// The normal is not that of both surfaces.
     Normal,
     Overlap,
     /// Farther apart than they are.
     Distance,
+    /// B moved by less than the overlap, and they overlap no more.
+    FlipsEarly,
+    /// B moved beyond the tangent planes, and they still overlap.
+    FlipsLate,
+    /// A with B is not B with A.
+    Swap,
+    /// Both turned and shifted together.
+    RigidMotion,
+    /// Another unit of length.
+    Units,
+    /// From memory and without.
+    Warm,
+    /// Rejected, although they overlap; or the quick answer has another kind than the full one.
+    Reject,
+    /// The cone program disagrees.
+    ConeProgram,
+    /// A jump along a smooth motion.
+    Jump,
+    /// A batch and a single call.
+    Batch,
+    /// The branch from A is off by more than its own rounding.
+    Branch,
     /// On a shared edge or vertex, but not the same bits.
     Seam,
-    /// From a memory of any bytes, and without.
-    Memory,
     /// A patch is further from its definition than it says.
     Patch,
+    /// Mass properties are further off than they say.
+    Mass,
 }
 
 /// A case that failed.
@@ -161,7 +187,37 @@ pub fn replay(one: impl FnOnce(&mut Ledger)) -> bool {
     ledger.failures() == 0
 }
 
-/// Cases 0 to `count` by several threads, each a function of its index alone. A panic is a finding of no family.
+/// What of a range of cases, in blocks by several threads, each with a sum of its own, comes to.
+pub fn parallel<T: Default + Send>(
+    (range, block): (Range<u64>, u64),
+    threads: usize,
+    stop: &AtomicBool,
+    progress: &ProgressBar,
+    merge: fn(&mut T, T),
+    of: impl Fn(Range<u64>, &mut T) + Sync,
+) -> T {
+    let (total, next) = (Mutex::new(T::default()), AtomicU64::new(range.start));
+    std::thread::scope(|scope| {
+        for _ in 0..threads {
+            scope.spawn(|| {
+                let mut sum = T::default();
+                loop {
+                    let begin = next.fetch_add(block, Ordering::Relaxed);
+                    if begin >= range.end || stop.load(Ordering::Relaxed) {
+                        break;
+                    }
+                    let end = (begin + block).min(range.end);
+                    of(begin..end, &mut sum);
+                    progress.inc(end - begin);
+                }
+                merge(&mut total.lock().expect("no thread panics while it holds the sum"), sum);
+            });
+        }
+    });
+    total.into_inner().expect("no thread panics while it holds the sum")
+}
+
+/// Cases 0 to `count`, each a function of its index alone. A panic is a finding of no family.
 pub fn run(
     (seed, count): (u64, u64),
     threads: usize,
@@ -169,10 +225,10 @@ pub fn run(
     progress: &ProgressBar,
     one: impl Fn(u64, &mut Ledger) + Sync,
 ) -> Ledger {
-    const BLOCK: u64 = 64;
-    let (total, next) = (Mutex::new(Ledger::default()), AtomicU64::new(0));
-    let block = |begin: u64, end: u64, ledger: &mut Ledger| {
-        for index in begin..end {
+    // Few long ones are shared among the threads, too.
+    let block = (count / 64).clamp(1, 64);
+    parallel((0..count, block), threads, stop, progress, Ledger::merge, |range, ledger| {
+        for index in range {
             if catch_unwind(AssertUnwindSafe(|| one(index, ledger))).is_err() {
                 let (family, detail) = (String::from("any"), String::from("panicked"));
                 let case = serde_json::Value::Null;
@@ -180,22 +236,5 @@ pub fn run(
             }
             ledger.cases += 1;
         }
-        progress.inc(end - begin);
-    };
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                let mut ledger = Ledger::default();
-                loop {
-                    let begin = next.fetch_add(BLOCK, Ordering::Relaxed);
-                    if begin >= count || stop.load(Ordering::Relaxed) {
-                        break;
-                    }
-                    block(begin, (begin + BLOCK).min(count), &mut ledger);
-                }
-                total.lock().expect("no thread panics while it holds the sum").merge(ledger);
-            });
-        }
-    });
-    total.into_inner().expect("no thread panics while it holds the sum")
+    })
 }

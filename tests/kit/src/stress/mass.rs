@@ -3,15 +3,11 @@
 
 use crate::random::Random;
 use crate::stress::cases::stream;
-use crate::stress::shapes::{Hull, Recipe, Sphericity, particle};
-use indicatif::ProgressBar;
-use nalgebra::{Matrix2, Matrix3, Rotation3, SMatrix, SVector, Vector2, Vector3};
+use crate::stress::ledger::{Fault, Finding, Ledger};
+use crate::stress::shapes::{Hull, Recipe, Sphericity, flattened, particle};
+use nalgebra::{Matrix2, Matrix3, Rotation3, SVector, Vector2, Vector3};
 use potential_particles::{Particle, Plane, SurfaceMesh};
-use serde::Serialize;
 use std::f64::consts::PI;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::time::Instant;
 
 /// Tolerances that are asked for, and the one of the reference; that of particles of more planes than [`FEW`] is
 /// coarser.
@@ -23,94 +19,27 @@ const FEW: usize = 40;
 /// Rounding of the answers and of the closed forms, relative.
 const ROUNDING: f64 = 1e-13;
 
-/// What was found.
-#[derive(Default, Serialize)]
-pub struct Tally {
-    pub particles: u64,
-    /// Answers whose error is above the estimate, by family.
-    pub too_small: std::collections::BTreeMap<&'static str, u64>,
-    /// Answers of at most [`FEW`] planes whose estimate is above the tolerance.
-    pub not_reached: u64,
-    /// The largest error over estimate.
-    pub worst: f64,
-    /// The longest call at the tolerances asked for, s.
-    pub slowest: f64,
-    /// The first failures: seed, index and numbers.
-    pub found: Vec<String>,
-}
-
-/// Failures that are described.
-const DESCRIBED: usize = 20;
-
-/// Volume (or area), centroid, ∫x xᵀ and the estimated error.
-struct Moments<const D: usize> {
+/// Volume (or area), centroid, ∫x xᵀ and the estimated error. Of the plane the third axis has the moment 1.
+struct Moments {
     volume: f64,
-    centroid: SVector<f64, D>,
-    second: SMatrix<f64, D, D>,
+    centroid: Vector3<f64>,
+    second: Matrix3<f64>,
     error: f64,
 }
 
-impl Tally {
-    pub fn failures(&self) -> u64 {
-        self.too_small.values().sum()
+impl Moments {
+    fn of_plane(volume: f64, centroid: Vector2<f64>, second: Matrix2<f64>, error: f64) -> Self {
+        let mut all = Matrix3::from_diagonal(&Vector3::z());
+        all.fixed_view_mut::<2, 2>(0, 0).copy_from(&second);
+        Self { volume, centroid: centroid.push(0.0), second: all, error }
     }
-
-    pub fn print(&self) {
-        if self.particles > 0 {
-            let Self { particles, not_reached, worst, slowest, .. } = self;
-            println!(
-                "mass properties of {particles} particles: {} with too small an estimate {:?}, {not_reached} above the tolerance, \
-                 error over estimate at most {worst:.2}, {:.0} ms at most",
-                self.failures(),
-                self.too_small,
-                1e3 * slowest
-            );
-            self.found.iter().for_each(|failure| println!("  {failure}"));
-        }
-    }
-
-    fn merge(&mut self, other: Self) {
-        self.particles += other.particles;
-        self.not_reached += other.not_reached;
-        self.worst = self.worst.max(other.worst);
-        self.slowest = self.slowest.max(other.slowest);
-        for (family, count) in other.too_small {
-            *self.too_small.entry(family).or_default() += count;
-        }
-        let room = DESCRIBED.saturating_sub(self.found.len());
-        self.found.extend(other.found.into_iter().take(room));
-    }
-
-    /// Holds one answer against the reference, whose own estimate counts, too.
-    fn judge<const D: usize>(&mut self, found: &Moments<D>, reference: &Moments<D>, case: &Case) {
-        let off = difference(found, reference);
-        let allowed = found.error + reference.error + ROUNDING;
-        // Also for NaN.
-        if !(off <= allowed) {
-            *self.too_small.entry(case.family).or_default() += 1;
-            self.found.push(format!(
-                "seed {} index {}, {}, {} planes, asked {:e}: off by {off:e}, estimated {:e} and {:e}",
-                case.seed, case.index, case.family, case.planes, case.asked, found.error, reference.error
-            ));
-        }
-        self.worst = self.worst.max(off / allowed);
-        self.not_reached += u64::from(case.planes <= FEW && !(found.error <= case.asked));
-    }
-}
-
-struct Case {
-    seed: u64,
-    index: u64,
-    family: &'static str,
-    planes: usize,
-    asked: f64,
 }
 
 /// The largest relative difference of volumes, centroids and second moments, in the measure in which the estimates are
 /// documented: in units of the radii of gyration of the reference.
-fn difference<const D: usize>(found: &Moments<D>, reference: &Moments<D>) -> f64 {
+fn difference(found: &Moments, reference: &Moments) -> f64 {
     let second = reference.second / reference.volume;
-    let root = second.cholesky().and_then(|root| root.l().solve_lower_triangular(&SMatrix::identity()));
+    let root = second.cholesky().and_then(|root| root.l().solve_lower_triangular(&Matrix3::identity()));
     let Some(unscaled) = root else { return f64::NAN };
     let volume = (found.volume / reference.volume - 1.0).abs();
     let centroid = (unscaled * (found.centroid - reference.centroid)).norm();
@@ -118,78 +47,59 @@ fn difference<const D: usize>(found: &Moments<D>, reference: &Moments<D>) -> f64
     volume.max(centroid).max(change.norm())
 }
 
-pub fn run(seed: u64, count: u64, threads: usize, stop: &AtomicBool, progress: &ProgressBar) -> Tally {
-    let total = Mutex::new(Tally::default());
-    let next = AtomicU64::new(0);
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                loop {
-                    let index = next.fetch_add(1, Ordering::Relaxed);
-                    if index >= count || stop.load(Ordering::Relaxed) {
-                        break;
-                    }
-                    let tally = one(seed, index);
-                    total.lock().expect("no thread panics while it holds the sum").merge(tally);
-                    progress.inc(1);
-                }
-            });
-        }
-    });
-    total.into_inner().expect("no thread panics while it holds the sum")
-}
-
-/// Judges one particle again and prints what is found; whether it passed.
-pub fn replay(seed: u64, index: u64) -> bool {
-    let tally = one(seed, index);
-    tally.print();
-    tally.failures() == 0
-}
-
-/// One particle at every tolerance.
-pub fn one(seed: u64, index: u64) -> Tally {
+/// Particle `index` at every tolerance: what is found is added to the ledger.
+pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
     let mut random = stream(seed, 11, index);
-    match index % 8 {
-        0 => rounded_box(seed, index, &mut random),
-        1 => ellipsoid(seed, index, &mut random),
-        2 => plane_closed(seed, index, &mut random),
-        3 => plane_any(seed, index, &mut random),
-        _ => any(seed, index, &mut random),
+    let made = match index % 8 {
+        0 => rounded_box(&mut random),
+        1 => ellipsoid(index, &mut random),
+        2 => rounded_rectangle(&mut random),
+        3 => outline(&mut random),
+        _ => Some(("any shape", any(&mut random), None)),
+    };
+    let Some((family, particle, reference)) = made else { return };
+    let planes = if particle.is_in_plane() { 1 } else { particle.plane_count() };
+    let of = |tolerance| of_particle(&particle, tolerance);
+    *ledger.families.entry(family.into()).or_default() += 1;
+    let reference = reference.unwrap_or_else(|| of(if planes > FEW { FINE_OF_MANY } else { FINE }));
+    for asked in ASKED {
+        let found = of(asked);
+        let off = difference(&found, &reference);
+        let allowed = found.error + reference.error + ROUNDING;
+        ledger.judged += 1;
+        // Also for NaN. Of those with a closed form the tolerance is reached.
+        let is_reached = found.error <= asked || !["rounded box", "ellipsoid", "rounded rectangle"].contains(&family);
+        if !(off <= allowed && is_reached) {
+            let detail = format!(
+                "{planes} planes, asked {asked:e}: off by {off:e}, estimated {:e} and {:e}",
+                found.error, reference.error
+            );
+            let (family, case) = (family.into(), serde_json::Value::Null);
+            ledger.find(Finding { fault: Fault::Mass, family, seed, index, detail, case, planes });
+        }
     }
 }
 
-fn of_space(particle: &Particle, tolerance: f64) -> Moments<3> {
+/// A particle to judge: its family, and what is known of it or found by another way.
+type Made = (&'static str, Particle, Option<Moments>);
+
+fn of_particle(particle: &Particle, tolerance: f64) -> Moments {
     let found = particle.mass_properties(tolerance).unwrap();
-    let second = Matrix3::from_diagonal_element(0.5 * found.inertia.trace()) - found.inertia;
+    let i = found.inertia;
+    if particle.is_in_plane() {
+        let second = Matrix2::new(i.m22, -i.m12, -i.m12, i.m11);
+        // A sheet: what leaves the plane is nothing.
+        let is_sheet = i.m13 == 0.0 && i.m23 == 0.0 && (i.m11 + i.m22 - i.m33).abs() <= 1e-14 * i.m33;
+        let volume = if is_sheet && found.centroid.z == 0.0 { found.volume } else { f64::NAN };
+        return Moments::of_plane(volume, found.centroid.xy(), second, found.error);
+    }
+    let second = Matrix3::from_diagonal_element(0.5 * i.trace()) - i;
     Moments { volume: found.volume, centroid: found.centroid, second, error: found.error }
 }
 
-fn of_plane(particle: &Particle, tolerance: f64) -> Moments<2> {
-    let found = particle.mass_properties(tolerance).unwrap();
-    let inertia = found.inertia;
-    let second = Matrix2::new(inertia.m22, -inertia.m12, -inertia.m12, inertia.m11);
-    Moments { volume: found.volume, centroid: found.centroid.xy(), second, error: found.error }
-}
-
-fn compared<const D: usize>(
-    (seed, index, family, planes): (u64, u64, &'static str, usize),
-    reference: Option<Moments<D>>,
-    of: impl Fn(f64) -> Moments<D>,
-) -> Tally {
-    let mut tally = Tally { particles: 1, ..Tally::default() };
-    let reference = reference.unwrap_or_else(|| of(if planes > FEW { FINE_OF_MANY } else { FINE }));
-    for asked in ASKED {
-        let begin = Instant::now();
-        let found = of(asked);
-        tally.slowest = tally.slowest.max(begin.elapsed().as_secs_f64());
-        tally.judge(&found, &reference, &Case { seed, index, family, planes, asked });
-    }
-    tally
-}
-
 /// Any shape: a hull of `shapes` with some of what makes integration hard.
-fn any(seed: u64, index: u64, random: &mut Random) -> Tally {
-    let made = loop {
+fn any(random: &mut Random) -> Particle {
+    loop {
         let recipe = Recipe {
             hull: Hull::Any,
             rounding: (-9.0, -0.3),
@@ -203,11 +113,9 @@ fn any(seed: u64, index: u64, random: &mut Random) -> Tally {
             altered(&mut planes, base.bounding_radius(), random);
         }
         if let Ok(particle) = Particle::new(&planes, r, k, shadow) {
-            break particle;
+            return particle;
         }
-    };
-    let planes = made.plane_count();
-    compared((seed, index, "any shape", planes), None, |tolerance| of_space(&made, tolerance))
+    }
 }
 
 fn altered(planes: &mut Vec<Plane>, radius: f64, random: &mut Random) {
@@ -250,8 +158,9 @@ fn altered(planes: &mut Vec<Plane>, radius: f64, random: &mut Random) {
 }
 
 /// What rounding of its normals and of its moments, when it is turned, does to a body with these half axes.
-fn of_turn<const D: usize>(half: &SVector<f64, D>) -> f64 {
-    16.0 * f64::EPSILON * (half.max() / half.min()).powi(2)
+fn of_turn(half: &[f64]) -> f64 {
+    let [most, least] = [f64::max, f64::min].map(|of| half.iter().copied().reduce(of).unwrap_or(1.0));
+    16.0 * f64::EPSILON * (most / least).powi(2)
 }
 
 fn turn(random: &mut Random) -> Rotation3<f64> {
@@ -259,7 +168,7 @@ fn turn(random: &mut Random) -> Rotation3<f64> {
 }
 
 /// A box whose edges are rounded by r, about any centre.
-fn rounded_box(seed: u64, index: u64, random: &mut Random) -> Tally {
+fn rounded_box(random: &mut Random) -> Option<Made> {
     let half = Vector3::from_fn(|_, _| random.power(-2.0, 1.0));
     let r = half.amin() * if random.uniform() < 0.1 { 1.0 } else { random.power(-9.0, 0.0) };
     let turn = if random.uniform() < 0.2 { Rotation3::identity() } else { turn(random) };
@@ -278,16 +187,16 @@ fn rounded_box(seed: u64, index: u64, random: &mut Random) -> Tally {
         let again = planes.iter().map(|p| Plane { normal: share * p.normal, offset: share * p.offset });
         planes.extend(again.collect::<Vec<_>>());
     }
-    let Ok(made) = Particle::new(&planes, r, 0.0, 1.0) else { return Tally::default() };
+    let made = Particle::new(&planes, r, 0.0, 1.0).ok()?;
     let (volume, second) = steiner::<3>(half.map(|h| h - r), r);
     let second = turn.matrix() * Matrix3::from_diagonal(&second) * turn.matrix().transpose();
     let reference = Moments {
         volume,
         centroid: centre,
         second: second + volume * centre * centre.transpose(),
-        error: of_turn(&half),
+        error: of_turn(half.as_slice()),
     };
-    compared((seed, index, "rounded box", planes.len()), Some(reference), |tolerance| of_space(&made, tolerance))
+    Some(("rounded box", made, Some(reference)))
 }
 
 /// Volume and ∫x_i² of the Minkowski sum of a box with half edges a and a ball: the sum over slabs of the box times
@@ -315,7 +224,7 @@ fn steiner<const D: usize>(a: SVector<f64, D>, r: f64) -> (f64, SVector<f64, D>)
 }
 
 /// With all offsets 0, planes n and −n give (n·x)²: an ellipsoid; of three equal weights, a sphere.
-fn ellipsoid(seed: u64, index: u64, random: &mut Random) -> Tally {
+fn ellipsoid(index: u64, random: &mut Random) -> Option<Made> {
     let turn = turn(random);
     let equal = random.power(-1.0, 1.0);
     let weights = Vector3::from_fn(|_, _| random.power(-1.5, 1.5)).map(|w| if index % 3 == 0 { equal } else { w });
@@ -332,16 +241,16 @@ fn ellipsoid(seed: u64, index: u64, random: &mut Random) -> Tally {
     for _ in 0..random.whole(0, 5) {
         planes.push(Plane { normal: random.direction(), offset: axes.amax() * random.power(0.01, 2.0) });
     }
-    let Ok(made) = Particle::new(&planes, r, k, shadow) else { return Tally::default() };
+    let made = Particle::new(&planes, r, k, shadow).ok()?;
     let volume = 4.0 / 3.0 * PI * axes.product();
     let second =
         turn.matrix() * Matrix3::from_diagonal(&axes.map(|a| volume * a * a / 5.0)) * turn.matrix().transpose();
-    let reference = Moments { volume, centroid: Vector3::zeros(), second, error: of_turn(&axes) };
-    compared((seed, index, "ellipsoid", planes.len()), Some(reference), |tolerance| of_space(&made, tolerance))
+    let reference = Moments { volume, centroid: Vector3::zeros(), second, error: of_turn(axes.as_slice()) };
+    Some(("ellipsoid", made, Some(reference)))
 }
 
 /// Rounded rectangles of the plane.
-fn plane_closed(seed: u64, index: u64, random: &mut Random) -> Tally {
+fn rounded_rectangle(random: &mut Random) -> Option<Made> {
     let half = Vector2::from_fn(|_, _| random.power(-2.0, 1.0));
     let r = half.amin() * random.power(-9.0, 0.0);
     let angle = PI * random.uniform();
@@ -354,59 +263,22 @@ fn plane_closed(seed: u64, index: u64, random: &mut Random) -> Tally {
             lines.push([normal.x, normal.y, half[axis] - r + normal.dot(&centre)]);
         }
     }
-    let Ok(made) = Particle::in_plane(&lines, r, 0.0, 1.0) else { return Tally::default() };
+    let made = Particle::in_plane(&lines, r, 0.0, 1.0).ok()?;
     let (area, second) = steiner::<2>(half.map(|h| h - r), r);
     let second = turn * Matrix2::from_diagonal(&second) * turn.transpose() + area * centre * centre.transpose();
-    let reference = Moments { volume: area, centroid: centre, second, error: of_turn(&half) };
-    compared((seed, index, "rounded rectangle", 4), Some(reference), |tolerance| of_plane(&made, tolerance))
+    let reference = Moments::of_plane(area, centre, second, of_turn(half.as_slice()));
+    Some(("rounded rectangle", made, Some(reference)))
 }
 
-/// Any particle of the plane.
-fn plane_any(seed: u64, index: u64, random: &mut Random) -> Tally {
-    let made = loop {
-        let half = Vector2::new(random.power(-2.0, 0.0), 1.0);
-        let count = random.power(0.5, 1.7) as usize;
-        let mut lines = Vec::new();
-        for _ in 0..count {
-            let angle = 2.0 * PI * random.uniform();
-            let normal = Vector2::new(angle.cos(), angle.sin());
-            let offset = normal.component_mul(&half).norm() * (0.7 + 0.3 * random.uniform());
-            lines.push((normal, offset));
-        }
-        // Nearly given twice.
-        if random.uniform() < 0.3 {
-            let (normal, offset) = lines[0];
-            let tilt = random.power(-16.0, -1.0) * Vector2::new(random.normal(), random.normal());
-            lines.push((normal + tilt, offset * (1.0 - random.power(-16.0, -2.0))));
-        }
-        let nearest = lines.iter().map(|line| line.1).fold(f64::INFINITY, f64::min);
-        let r = nearest * random.power(-9.0, -0.1);
-        // A centre far from the centroid.
-        if random.uniform() < 0.4 {
-            let angle = 2.0 * PI * random.uniform();
-            let way = Vector2::new(angle.cos(), angle.sin());
-            let most = lines.iter().map(|line| line.0.dot(&way) / line.1).fold(0.0, f64::max);
-            let way = (1.0 - random.power(-6.0, -0.1)) / most.max(0.1) * way;
-            lines.iter_mut().for_each(|line| line.1 -= line.0.dot(&way));
-        }
-        if random.uniform() < 0.3 {
-            for line in &mut lines {
-                let factor = random.power(-2.0, 2.0);
-                *line = (factor * line.0, factor * line.1);
-            }
-        }
-        let k = [0.0, 0.0, random.power(-13.0, 0.0)][random.whole(0, 3)];
-        let rows: Vec<[f64; 3]> = lines.iter().map(|(normal, offset)| [normal.x, normal.y, *offset]).collect();
-        if let Ok(particle) = Particle::in_plane(&rows, r, k, random.power(-0.5, 0.5)) {
-            break particle;
-        }
-    };
+/// What any shape cuts out of the plane.
+fn outline(random: &mut Random) -> Option<Made> {
+    let made = flattened(&any(random)).filter(|made| made.plane_count() > 0)?;
     let reference = of_outline(&made);
-    compared((seed, index, "any of the plane", 1), Some(reference), |tolerance| of_plane(&made, tolerance))
+    Some(("outline", made, Some(reference)))
 }
 
 /// By the polygon of an outline, whose sides are nowhere further from the boundary than its tolerance.
-fn of_outline(particle: &Particle) -> Moments<2> {
+fn of_outline(particle: &Particle) -> Moments {
     let mesh = SurfaceMesh::of(particle, 1e-9).unwrap();
     let tolerance = 1e-9 * particle.bounding_radius();
     let points: Vec<Vector2<f64>> = mesh.vertices.iter().map(|vertex| vertex.xy()).collect();
@@ -426,5 +298,5 @@ fn of_outline(particle: &Particle) -> Moments<2> {
         };
         tolerance * sides().map(of_side).sum::<f64>() / area
     });
-    Moments { volume: area, centroid: first / area, second, error }
+    Moments::of_plane(area, first / area, second, error)
 }

@@ -1,9 +1,10 @@
 //! What a pair remembers is a hint only: from any numbers at all, the answer is the one without.
 
+use crate::pair_line::Line;
 use crate::random::Random;
 use crate::stress::cases::{Case, Shapes, stream};
+use crate::stress::judge::stays_in_plane;
 use crate::stress::ledger::{Fault, Finding, Ledger};
-use crate::stress::line::Line;
 use potential_particles::{Contact, DetectError, Flags, Formulation, Kind, PairState, Settings, detect};
 use serde::Serialize;
 
@@ -122,9 +123,11 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
         let again = solve(&case, &settings, Some(&mut after));
         for warm in [warm, again] {
             ledger.judged += 1;
-            let Some(detail) = wrong(&cold, &warm) else { continue };
+            let leaves = warm.as_ref().is_ok_and(|warm| !stays_in_plane(&shapes, warm));
+            let leaves = leaves.then(|| "leaves the plane".into());
+            let Some(detail) = leaves.or_else(|| wrong(&cold, &warm)) else { continue };
             let written = Written {
-                pair: Line::of(&case, detail.clone()),
+                pair: case.line(detail.clone()),
                 memory_bits: raw.map(f64::to_bits),
                 memory: format!("{raw:?}"),
                 settings: format!("{settings:?}"),
@@ -134,13 +137,13 @@ pub fn one(seed: u64, index: u64, ledger: &mut Ledger) {
             let planes = written.pair.planes();
             let written = serde_json::to_value(written).unwrap_or_default();
             let family = family.clone();
-            ledger.find(Finding { fault: Fault::Memory, family, seed, index, detail, case: written, planes });
+            ledger.find(Finding { fault: Fault::Warm, family, seed, index, detail, case: written, planes });
         }
     }
 }
 
 /// What of an answer from memory is not that without.
-fn wrong(cold: &Result<Contact, DetectError>, warm: &Result<Contact, DetectError>) -> Option<String> {
+pub fn wrong(cold: &Result<Contact, DetectError>, warm: &Result<Contact, DetectError>) -> Option<String> {
     let (cold, warm) = match (cold, warm) {
         (Ok(cold), Ok(warm)) => (cold, warm),
         (Ok(_), Err(error)) => return Some(format!("failed from memory: {error}")),

@@ -1,13 +1,12 @@
 //! The first part: many pairs, each judged on its own, by several threads.
 
-use crate::stress::cases::{Case, Shapes, family_of, next_group, stream};
+use crate::stress::cases::{Case, FAMILIES, Shapes, family_of, next_group, stream};
 use crate::stress::judge::{Shared, Trial, Verdict, judge};
-use crate::stress::line::Line;
-use crate::stress::tally::{Found, Tally};
+use crate::stress::ledger::{Finding, parallel};
+use crate::stress::tally::Tally;
 use indicatif::ProgressBar;
 use potential_particles::detect;
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 
 /// Pairs that a thread takes at once.
 const BLOCK: u64 = 512;
@@ -39,43 +38,28 @@ impl Range {
 }
 
 pub fn run(range: &Range, threads: usize, stop: &AtomicBool, progress: &ProgressBar) -> Tally {
-    let total = Mutex::new(Tally::default());
-    let next = AtomicU64::new(range.first);
-    let end = range.first + range.count;
-    std::thread::scope(|scope| {
-        for _ in 0..threads {
-            scope.spawn(|| {
-                let mut tally = Tally::default();
-                loop {
-                    let begin = next.fetch_add(BLOCK, Ordering::Relaxed);
-                    if begin >= end || stop.load(Ordering::Relaxed) {
-                        break;
-                    }
-                    block(range, begin, (begin + BLOCK).min(end), &mut tally);
-                    progress.inc((begin + BLOCK).min(end) - begin);
-                }
-                total.lock().expect("no thread panics while it holds the sum").merge(tally);
-            });
-        }
-    });
-    total.into_inner().expect("no thread panics while it holds the sum")
+    let pairs = range.first..range.first + range.count;
+    let of = |block: std::ops::Range<u64>, tally: &mut Tally| self::block(range, block, tally);
+    parallel((pairs, BLOCK), threads, stop, progress, Tally::merge, of)
 }
 
-fn block(range: &Range, begin: u64, end: u64, tally: &mut Tally) {
-    let mut index = begin;
-    while index < end {
-        let group_end = next_group(index).min(end);
+fn block(range: &Range, block: std::ops::Range<u64>, tally: &mut Tally) {
+    let (mut index, seed) = (block.start, range.seed);
+    while index < block.end {
+        let group_end = next_group(index).min(block.end);
         let family = family_of(index);
         if range.family.is_none_or(|wanted| wanted == family) {
-            let shapes = Shapes::of(range.seed, index);
-            let shared = Shared::of(&shapes.a, &shapes.b, &mut stream(range.seed, 3, shapes.group));
+            let shapes = Shapes::of(seed, index);
+            let shared = Shared::of(&shapes.a, &shapes.b, &mut stream(seed, 3, shapes.group));
             for index in index..group_end {
-                let verdict = one(&shapes, &shared, range.seed, index, range.trial(index));
+                let verdict = one(&shapes, &shared, seed, index, range.trial(index));
                 tally.add(index, family, &verdict);
-                for (failure, detail) in verdict.failures {
-                    let case = Case::of(&shapes, range.seed, index);
-                    let line = Line::of(&case, format!("seed {} index {index}: {failure:?}: {detail}", range.seed));
-                    tally.find(Found { failure, index, family: case.family(), detail, line: Some(line) });
+                for (fault, detail) in verdict.faults {
+                    let line =
+                        Case::of(&shapes, seed, index).line(format!("seed {seed} index {index}: {fault:?}: {detail}"));
+                    let (family, planes) = (FAMILIES[family].name.into(), line.planes());
+                    let case = serde_json::to_value(line).unwrap_or_default();
+                    tally.ledger.find(Finding { fault, family, seed, index, detail, case, planes });
                 }
             }
         }

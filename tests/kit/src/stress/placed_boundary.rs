@@ -1,5 +1,6 @@
 //! A plane or a triangle as a particle sees it, in 32 digits.
 
+use crate::pair_line::Place;
 use crate::wide::{Wide, Wide3};
 use nalgebra::Vector3;
 
@@ -62,28 +63,28 @@ pub struct Plane {
 }
 
 impl Plane {
-    pub fn new(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4]) -> Self {
-        Self::with_axis(boundary, position, orientation, None)
+    pub fn new(boundary: &Boundary, at: &Place) -> Self {
+        Self::with_axis(boundary, at, None)
     }
 
     /// With its first axis along edge i of a triangle, and its height that of the edge: however the sides of a narrow
     /// triangle turn the plane, the edge stays where it is.
-    pub fn along_edge(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], i: usize) -> Self {
-        Self::with_axis(boundary, position, orientation, Some(i))
+    pub fn along_edge(boundary: &Boundary, at: &Place, i: usize) -> Self {
+        Self::with_axis(boundary, at, Some(i))
     }
 
-    fn with_axis(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], edge: Option<usize>) -> Self {
-        let rotation = crate::stress::reference::rows(orientation);
+    fn with_axis(boundary: &Boundary, at: &Place, edge: Option<usize>) -> Self {
+        let rotation = at.rows();
         let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| rotation[i].0[j])));
         let local = |v: &Wide3| Wide3([0, 1, 2].map(|j| columns[j].dot(v)));
-        let from_centre = |p: &[f64; 3]| local(&Wide3([0, 1, 2].map(|i| Wide::difference(p[i], position[i]))));
+        let from_centre = |p: &[f64; 3]| local(&Wide3([0, 1, 2].map(|i| Wide::difference(p[i], at.position[i]))));
         let (normal, point, vertices, condition, along) = match boundary {
             Boundary::Plane { point, normal } => {
                 (unit(&local(&Wide3(normal.map(Wide::from)))), from_centre(point), None, 1.0, None)
             }
             Boundary::Triangle(vertices) => {
-                let at = vertices.map(|v| from_centre(&v));
-                let side = |i: usize| at[(i + 2) % 3].minus(&at[(i + 1) % 3]).norm().f64();
+                let from = vertices.map(|v| from_centre(&v));
+                let side = |i: usize| from[(i + 2) % 3].minus(&from[(i + 1) % 3]).norm().f64();
                 let base = (0..3).fold(0, |longest, i| if side(i) > side(longest) { i } else { longest });
                 let (next, last) = ((base + 1) % 3, (base + 2) % 3);
                 // Their differences have no rounding in world axes.
@@ -97,7 +98,7 @@ impl Plane {
                     let n = unit(&across);
                     unit(&n.minus(&e.times(n.dot(e))))
                 });
-                (normal, at[edge.unwrap_or(base)], Some(at), condition, along)
+                (normal, from[edge.unwrap_or(base)], Some(from), condition, along)
             }
         };
         let plain = normal.f64();
@@ -155,8 +156,8 @@ pub struct Beside {
     pub farthest: f64,
 }
 
-pub fn beside(boundary: &Boundary, position: [f64; 3], orientation: [f64; 4], x: &Vector3<f64>, part: Part) -> Beside {
-    let plane = Plane::new(boundary, position, orientation);
+pub fn beside(boundary: &Boundary, at: &Place, x: &Vector3<f64>, part: Part) -> Beside {
+    let plane = Plane::new(boundary, at);
     let columns = [0, 1, 2].map(|j| Wide3([0, 1, 2].map(|i| plane.rotation[i].0[j])));
     let x = Wide3::from(*x);
     let local = Wide3([0, 1, 2].map(|j| columns[j].dot(&x)));

@@ -5,6 +5,7 @@
 //! φ(x) − |∇φ(x)|·D is below its minimum over all points within D, and the optimum lies between dual value and
 //! max(S_A, S_B). An answer is judged only where the two meet.
 
+use crate::pair_line::Place;
 use crate::wide::{Wide, Wide3, Wide6, solve};
 use nalgebra::{Matrix3, Vector3};
 use potential_particles::Particle;
@@ -40,9 +41,16 @@ pub struct Local {
     pub value: Wide,
     pub gradient: Wide3,
     pub hessian: Wide6,
+    /// What one unit of length, by which all planes are wrong, does to the value.
+    pub pull: f64,
 }
 
 impl Local {
+    /// The same of the root of the value, with what a unit of length between point and body does.
+    pub fn steepness(&self) -> f64 {
+        (self.pull + self.gradient.norm().f64()) / (2.0 * self.value.sqrt().f64()).max(f64::MIN_POSITIVE)
+    }
+
     /// How fast the direction of ∇S can turn, radians a length.
     pub fn bend(&self) -> f64 {
         let stiffest: f64 = self.hessian[..3].iter().map(|entry| entry.f64()).sum();
@@ -50,26 +58,10 @@ impl Local {
     }
 }
 
-/// Rows of the rotation of a quaternion of any length, w x y z.
-pub fn rows([w, x, y, z]: [f64; 4]) -> [Wide3; 3] {
-    let p = Wide::product;
-    let square = p(w, w) + p(x, x) + p(y, y) + p(z, z);
-    let two = |v: Wide| (v + v) / square;
-    [
-        Wide3([(p(w, w) + p(x, x) - p(y, y) - p(z, z)) / square, two(p(x, y) - p(w, z)), two(p(x, z) + p(w, y))]),
-        Wide3([two(p(x, y) + p(w, z)), (p(w, w) - p(x, x) + p(y, y) - p(z, z)) / square, two(p(y, z) - p(w, x))]),
-        Wide3([two(p(x, z) - p(w, y)), two(p(y, z) + p(w, x)), (p(w, w) - p(x, x) - p(y, y) + p(z, z)) / square]),
-    ]
-}
-
 impl<'a> Body<'a> {
-    /// `position` and `origin` in world axes; their difference is exact.
-    pub fn new(particle: &'a Particle, position: [f64; 3], orientation: [f64; 4], origin: [f64; 3]) -> Self {
-        Self::turned(particle, position, rows(orientation), origin)
-    }
-
-    /// The same with the rows of a rotation.
-    pub fn turned(particle: &'a Particle, position: [f64; 3], rotation: [Wide3; 3], origin: [f64; 3]) -> Self {
+    /// At a place, about `origin` in world axes; their difference is exact.
+    pub fn new(particle: &'a Particle, at: &Place, origin: [f64; 3]) -> Self {
+        let rotation = at.rows();
         let (r, k, shadow) = (particle.rounding_radius(), particle.sphericity(), particle.shadow_radius());
         let plain = Matrix3::from_fn(|i, j| rotation[i].0[j].f64());
         let round = k == 1.0;
@@ -81,7 +73,7 @@ impl<'a> Body<'a> {
             planes,
             turned,
             rotation,
-            centre: Wide3([0, 1, 2].map(|i| Wide::difference(position[i], origin[i]))),
+            centre: Wide3([0, 1, 2].map(|i| Wide::difference(at.position[i], origin[i]))),
             plane_weight: if round { Wide::ZERO } else { Wide::difference(1.0, k) / Wide::product(r, r) },
             sphere_weight: if k == 0.0 { Wide::ZERO } else { Wide::from(k) / Wide::product(shadow, shadow) },
             particle,
@@ -131,7 +123,7 @@ impl<'a> Body<'a> {
         let from = x.minus(&self.centre);
         let plain = from.f64();
         let far = 1e-12 * plain.norm() * self.longest;
-        let mut square = Wide::ZERO;
+        let (mut square, mut excesses) = (Wide::ZERO, 0.0);
         let mut pull = Wide3::default();
         let mut bend: Wide6 = [Wide::ZERO; 6];
         for ((n, d), turned) in self.planes.iter().zip(&self.turned) {
@@ -145,6 +137,7 @@ impl<'a> Body<'a> {
                 continue;
             }
             square += excess * excess;
+            excesses += excess.f64();
             pull = pull.plus(&n.times(excess));
             for (entry, (i, j)) in bend.iter_mut().zip([(0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (2, 0)]) {
                 *entry += n.0[i] * n.0[j];
@@ -159,6 +152,7 @@ impl<'a> Body<'a> {
             value: self.plane_weight * square + self.sphere_weight * from.dot(&from),
             gradient: pull.times(w).plus(&from.times(k)),
             hessian,
+            pull: w.f64() * excesses,
         }
     }
 
@@ -190,12 +184,13 @@ impl<'a> Body<'a> {
         self.plane_weight.f64() * self.turned.iter().zip(&self.planes).map(grown).sum::<f64>()
     }
 
-    /// Distance from the centre within which S ≤ level.
-    fn reach(&self, level: f64) -> f64 {
+    /// How far S ≤ level reaches from x, at most.
+    pub fn farthest(&self, x: &Wide3, level: f64) -> f64 {
         let s0 = self.at_centre();
         let s = level.max(1.0).sqrt();
         // s is convex along the ray to a point of the level set, and 1 at most where the ball ends.
-        self.particle.bounding_radius() * (s - s0) / (1.0 - s0)
+        let reach = self.particle.bounding_radius() * (s - s0) / (1.0 - s0);
+        (x.f64() - self.centre()).norm() + reach
     }
 }
 
@@ -321,7 +316,7 @@ pub fn optimum(a: &Body, b: &Body, wanted: Wanted, start: &Vector3<f64>, lambda:
     best
 }
 
-fn sum(a: &Wide6, b: &Wide6, lambda: Wide) -> Wide6 {
+pub fn sum(a: &Wide6, b: &Wide6, lambda: Wide) -> Wide6 {
     let mut sum = *a;
     for (entry, other) in sum.iter_mut().zip(b) {
         *entry += *other * lambda;
@@ -407,7 +402,6 @@ impl Problem<'_> {
 
     fn bounds(&self, x: Wide3, lambda: Wide, a: Local, b: Local) -> Optimum {
         let gradient = a.gradient.plus(&b.gradient.times(lambda)).norm().f64();
-        let plain = x.f64();
         let midway = self.wanted == Wanted::Midway;
         // At a feasible point: both S are at most this, or 1, at the optimum. x itself may be infeasible, and S of the
         // free body smaller there.
@@ -417,8 +411,7 @@ impl Problem<'_> {
             Wanted::OnA => self.b.at(&self.a.inward(&x, &a)).value,
         };
         let level = most.f64().max(1.0);
-        let distance = |body: &Body| (plain - body.centre()).norm() + body.reach(level);
-        let reach = distance(self.a).min(distance(self.b));
+        let reach = self.a.farthest(&x, level).min(self.b.farthest(&x, level));
         let slack = Wide::from(gradient * reach * (1.0 + 1e-10));
         let phi = Self::phi(&a, &b, lambda);
         let dual = match self.wanted {

@@ -1,5 +1,6 @@
 //! Random particles over everything that can be written down.
 
+use crate::pair_line::outline;
 use crate::random::Random;
 use nalgebra::Vector3;
 use potential_particles::{Particle, Plane};
@@ -50,6 +51,27 @@ pub fn particle(recipe: &Recipe, random: &mut Random) -> Particle {
             return particle;
         }
     }
+}
+
+/// The outline of one: its planes as lines of the plane z = 0, normals as long as they are. Planes that lie there are
+/// none.
+pub fn in_plane(recipe: &Recipe, random: &mut Random) -> Particle {
+    loop {
+        if let Some(flat) = flattened(&particle(recipe, random)) {
+            return flat;
+        }
+    }
+}
+
+/// The same of a particle, if its lines make one.
+pub fn flattened(particle: &Particle) -> Option<Particle> {
+    let line = |plane: Plane| {
+        let length = plane.normal.norm();
+        let across = Vector3::new(plane.normal.x, plane.normal.y, 0.0).try_normalize(1e-3 * length)?;
+        Some(Plane { normal: length * across, ..plane })
+    };
+    let lines: Vec<Plane> = particle.planes().filter_map(line).collect();
+    outline(&lines, particle.rounding_radius(), particle.sphericity(), particle.shadow_radius()).ok()
 }
 
 fn power(random: &mut Random, (low, high): (f64, f64)) -> f64 {

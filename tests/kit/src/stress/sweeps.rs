@@ -5,14 +5,14 @@
 //! normal may turn fast: overlaps deeper than the rounding meet in both cores, where the level surfaces have corners.
 //! What is left of a change on the last interval beyond these rates, and beyond the bounds of the points, is a jump.
 
-use crate::stress::cases::Place;
-use crate::stress::judge::{FULL, Failure};
-use crate::stress::line::Line;
+use crate::pair_line::{Line, Place};
+use crate::patch::bodies::cuboid;
+use crate::stress::judge::FULL;
+use crate::stress::ledger::{Fault, Finding, Ledger};
 use crate::stress::reference::Body;
-use crate::stress::tally::{Found, Tally};
 use crate::wide::Wide3;
 use nalgebra::{UnitQuaternion, Vector3};
-use potential_particles::{Contact, Kind, Particle, Plane, detect};
+use potential_particles::{Contact, Kind, Particle, detect};
 use serde::Serialize;
 use std::f64::consts::{FRAC_PI_4, SQRT_2};
 
@@ -69,12 +69,6 @@ pub struct Sweep {
     pub jumps: u32,
 }
 
-pub fn cuboid(half: f64, r: f64, k: f64) -> Particle {
-    let faces = (0..3).flat_map(|axis| [1.0, -1.0].map(|sign| Vector3::ith(axis, sign)));
-    let planes: Vec<Plane> = faces.map(|normal| Plane { normal, offset: half - r }).collect();
-    Particle::new(&planes, r, k, 1.9 * half).expect("a cube")
-}
-
 struct Stage {
     a: Particle,
     b: Particle,
@@ -85,15 +79,15 @@ impl Stage {
     fn places(&self, t: f64) -> (Place, Place) {
         let (position, q) = (self.motion)(t);
         (
-            Place { position: [0.0; 3], orientation: [1.0, 0.0, 0.0, 0.0] },
-            Place { position: position.into(), orientation: [q.w, q.i, q.j, q.k] },
+            Place { position: [0.0; 3], orientation: [1.0, 0.0, 0.0, 0.0], angle: None },
+            Place { position: position.into(), orientation: [q.w, q.i, q.j, q.k], angle: None },
         )
     }
 
     /// How fast the gradients turn at an answer, radians a length.
     fn bend(&self, contact: &Contact, t: f64) -> f64 {
         let (at_a, at_b) = self.places(t);
-        let body = |particle, at: &Place| Body::new(particle, at.position, at.orientation, at_b.position);
+        let body = |particle, at: &Place| Body::new(particle, at, at_b.position);
         let x = Wide3::from(contact.branch_b);
         body(&self.a, &at_a).at(&x).bend().max(body(&self.b, &at_b).at(&x).bend())
     }
@@ -115,22 +109,16 @@ fn changes(one: &Contact, other: &Contact) -> [f64; 3] {
     ]
 }
 
-pub fn all(tally: &mut Tally, progress: impl Fn()) -> Vec<Sweep> {
+pub fn all(ledger: &mut Ledger, progress: impl Fn()) -> Vec<Sweep> {
     let mut sweeps = Vec::new();
     for (index, (name, motion)) in MOTIONS.iter().enumerate() {
         for (share, k) in SHAPES {
-            let stage = Stage { a: cuboid(0.5, share, k), b: cuboid(0.2, 0.4 * share, k), motion: *motion };
-            match one(&stage, name, share, k, index, tally) {
+            let stage = Stage { a: cuboid([0.5; 3], share, k), b: cuboid([0.2; 3], 0.4 * share, k), motion: *motion };
+            match one(&stage, name, share, k, index, ledger) {
                 Ok(sweep) => sweeps.push(sweep),
                 Err(error) => {
                     let detail = format!("{name}, r={share:e}, k={k:e}: {error}");
-                    tally.find(Found {
-                        failure: Failure::Error,
-                        index: index as u64,
-                        family: "sweep",
-                        detail,
-                        line: None,
-                    });
+                    ledger.find(finding(Fault::NotSolved, index, detail, serde_json::Value::Null));
                 }
             }
             progress();
@@ -139,7 +127,18 @@ pub fn all(tally: &mut Tally, progress: impl Fn()) -> Vec<Sweep> {
     sweeps
 }
 
-fn one(stage: &Stage, motion: &'static str, r: f64, k: f64, index: usize, tally: &mut Tally) -> Result<Sweep, String> {
+fn finding(fault: Fault, index: usize, detail: String, case: serde_json::Value) -> Finding {
+    Finding { fault, family: "sweep".into(), seed: 0, index: index as u64, detail, case, planes: 12 }
+}
+
+fn one(
+    stage: &Stage,
+    motion: &'static str,
+    r: f64,
+    k: f64,
+    index: usize,
+    ledger: &mut Ledger,
+) -> Result<Sweep, String> {
     let grid: Result<Vec<Contact>, String> = (0..=INTERVALS).map(|i| stage.at(i as f64 / INTERVALS as f64)).collect();
     let grid = grid?;
     let steps: Vec<[f64; 3]> = grid.windows(2).map(|pair| changes(&pair[0], &pair[1])).collect();
@@ -185,14 +184,9 @@ fn one(stage: &Stage, motion: &'static str, r: f64, k: f64, index: usize, tally:
                     "{motion}, r={r:e}, k={k:e}: {name} jumps by {left:e} (allowed {allowed:e}) between t={from} and {to}"
                 );
                 let (at_a, at_b) = stage.places(from);
-                let line = Line::placed(&stage.a, &at_a, &stage.b, &at_b, detail.clone());
-                tally.find(Found {
-                    failure: Failure::Jump,
-                    index: index as u64,
-                    family: "sweep",
-                    detail,
-                    line: Some(line),
-                });
+                let line = Line::of(&stage.a, &at_a, &stage.b, &at_b, detail.clone());
+                let case = serde_json::to_value(line).unwrap_or_default();
+                ledger.find(finding(Fault::Jump, index, detail, case));
             }
         }
     }

@@ -2,8 +2,8 @@
 
 use crate::stress::cases::FAMILIES;
 use crate::stress::clock::{CALLS, Call};
-use crate::stress::judge::{Doubt, Failure, PATHS, Verdict};
-use crate::stress::line::Line;
+use crate::stress::judge::{Doubt, PATHS, Verdict};
+use crate::stress::ledger::Ledger;
 use std::collections::BTreeMap;
 
 /// Values by powers of ten, 32 bins each: quantiles to 7 %.
@@ -78,114 +78,92 @@ pub struct OfFamily {
     pub gap: Distribution,
     pub error: Distribution,
     pub point_error: Distribution,
-    pub point_bound: Distribution,
-    pub normal_error: Distribution,
-    pub looseness: Distribution,
-    /// Evaluations of the pair itself.
+    /// Of midway solved to the end, s.
     pub time: Distribution,
     pub extended: u64,
     pub unjudged: u64,
 }
 
-/// A failed pair.
-#[derive(Clone, Debug)]
-pub struct Found {
-    pub failure: Failure,
-    pub index: u64,
-    pub family: &'static str,
-    pub detail: String,
-    /// The pair itself.
-    pub line: Option<Line>,
-}
-
-impl Found {
-    fn planes(&self) -> usize {
-        self.line.as_ref().map_or(0, Line::planes)
+impl OfFamily {
+    fn merge(&mut self, other: &Self) {
+        self.pairs += other.pairs;
+        self.failures += other.failures;
+        self.extended += other.extended;
+        self.unjudged += other.unjudged;
+        for (mine, others) in [
+            (&mut self.gap, &other.gap),
+            (&mut self.error, &other.error),
+            (&mut self.point_error, &other.point_error),
+            (&mut self.time, &other.time),
+        ] {
+            mine.merge(others);
+        }
     }
 }
 
+/// Of the pairs.
 #[derive(Clone)]
 pub struct Tally {
-    pub pairs: u64,
+    /// What was found; the answers that the second solver could judge, and could not.
+    pub ledger: Ledger,
     pub families: Vec<OfFamily>,
-    pub failures: BTreeMap<Failure, u64>,
-    pub found: Vec<Found>,
-    /// Evaluations of the pair itself, by call.
-    pub times: Vec<Distribution>,
+    /// Of each call, s.
     pub seconds: Vec<Distribution>,
     pub paths: Vec<[u64; PATHS.len()]>,
     /// Pairs put to the second solver.
     pub settled: u64,
     pub doubts: BTreeMap<Doubt, u64>,
-    /// Answers that it could judge, and could not.
-    pub judged: u64,
-    pub unjudged: u64,
     pub unit_digits: u64,
     pub rounding_limited: u64,
     pub cone_program: [u64; 2],
-    pub walk_steps: u64,
 }
-
-/// Most pairs that are kept of each kind of failure.
-const KEPT: usize = 25;
 
 impl Default for Tally {
     fn default() -> Self {
         Self {
-            pairs: 0,
+            ledger: Ledger::default(),
             families: vec![OfFamily::default(); FAMILIES.len()],
-            failures: BTreeMap::new(),
-            found: Vec::new(),
-            times: vec![Distribution::default(); CALLS.len()],
             seconds: vec![Distribution::default(); CALLS.len()],
             paths: vec![[0; PATHS.len()]; CALLS.len()],
             settled: 0,
             doubts: BTreeMap::new(),
-            judged: 0,
-            unjudged: 0,
             unit_digits: 0,
             rounding_limited: 0,
             cone_program: [0; 2],
-            walk_steps: 0,
         }
     }
 }
 
-pub fn place_of(call: Call) -> usize {
+fn place_of(call: Call) -> usize {
     CALLS.iter().position(|(each, _)| *each == call).expect("every call is listed")
 }
 
 impl Tally {
     pub fn add(&mut self, index: u64, family: usize, verdict: &Verdict) {
-        self.pairs += 1;
+        self.ledger.cases += 1;
         let of = &mut self.families[family];
         of.pairs += 1;
+        *self.ledger.families.entry(FAMILIES[family].name.into()).or_default() += 1;
         let m = &verdict.measures;
-        of.gap.add(m.gap, index);
-        for (value, distribution) in [
-            (m.error, &mut of.error),
-            (m.point_error, &mut of.point_error),
-            (m.point_bound, &mut of.point_bound),
-            (m.normal_error, &mut of.normal_error),
-            (m.looseness, &mut of.looseness),
-        ] {
+        for (value, distribution) in
+            [(Some(m.gap), &mut of.gap), (m.error, &mut of.error), (m.point_error, &mut of.point_error)]
+        {
             if let Some(value) = value {
                 distribution.add(value, index);
             }
         }
         of.unjudged += u64::from(verdict.unjudged > 0);
+        of.failures += u64::from(!verdict.faults.is_empty());
         self.settled += u64::from(verdict.settled);
         for doubt in &verdict.doubts {
             *self.doubts.entry(*doubt).or_default() += 1;
         }
-        self.judged += u64::from(verdict.judged);
-        self.unjudged += u64::from(verdict.unjudged);
+        self.ledger.judged += u64::from(verdict.judged + verdict.unjudged);
+        self.ledger.unsettled += u64::from(verdict.unjudged);
         for (call, seconds) in &verdict.costs {
-            let evaluations = seconds / verdict.evaluation;
-            self.times[place_of(*call)].add(evaluations, index);
             self.seconds[place_of(*call)].add(*seconds, index);
             if *call == Call::Full {
-                of.time.add(evaluations, index);
+                of.time.add(*seconds, index);
             }
         }
         for (call, path) in &verdict.paths {
@@ -197,79 +175,22 @@ impl Tally {
         if let Some(answered) = verdict.cone_program {
             self.cone_program[usize::from(!answered)] += 1;
         }
-        self.families[family].failures += u64::from(!verdict.failures.is_empty());
-    }
-
-    pub fn find(&mut self, found: Found) {
-        *self.failures.entry(found.failure).or_default() += 1;
-        self.keep(found);
-    }
-
-    /// Of many failures of a kind those of few planes, which are easiest to understand.
-    fn keep(&mut self, found: Found) {
-        if self.found.iter().filter(|each| each.failure == found.failure).count() < KEPT {
-            self.found.push(found);
-            return;
-        }
-        let alike = self.found.iter_mut().filter(|each| each.failure == found.failure);
-        let largest = alike.max_by_key(|each| each.planes());
-        if let Some(largest) = largest.filter(|largest| largest.planes() > found.planes()) {
-            *largest = found;
-        }
     }
 
     pub fn merge(&mut self, other: Self) {
-        self.pairs += other.pairs;
-        for (mine, others) in self.families.iter_mut().zip(&other.families) {
-            mine.pairs += others.pairs;
-            mine.failures += others.failures;
-            mine.gap.merge(&others.gap);
-            mine.error.merge(&others.error);
-            mine.point_error.merge(&others.point_error);
-            mine.point_bound.merge(&others.point_bound);
-            mine.normal_error.merge(&others.normal_error);
-            mine.looseness.merge(&others.looseness);
-            mine.time.merge(&others.time);
-            mine.extended += others.extended;
-            mine.unjudged += others.unjudged;
-        }
-        for (failure, count) in other.failures {
-            *self.failures.entry(failure).or_default() += count;
-        }
-        for found in other.found {
-            self.keep(found);
-        }
-        for (mine, others) in self.times.iter_mut().zip(&other.times) {
-            mine.merge(others);
-        }
-        for (mine, others) in self.seconds.iter_mut().zip(&other.seconds) {
-            mine.merge(others);
-        }
+        self.ledger.merge(other.ledger);
+        self.families.iter_mut().zip(&other.families).for_each(|(mine, others)| mine.merge(others));
+        self.seconds.iter_mut().zip(&other.seconds).for_each(|(mine, others)| mine.merge(others));
         for (mine, others) in self.paths.iter_mut().zip(&other.paths) {
-            for (count, more) in mine.iter_mut().zip(others) {
-                *count += more;
-            }
+            mine.iter_mut().zip(others).for_each(|(count, more)| *count += more);
         }
         self.settled += other.settled;
         for (doubt, count) in other.doubts {
             *self.doubts.entry(doubt).or_default() += count;
         }
-        self.judged += other.judged;
-        self.unjudged += other.unjudged;
         self.unit_digits += other.unit_digits;
         self.rounding_limited += other.rounding_limited;
         self.cone_program[0] += other.cone_program[0];
         self.cone_program[1] += other.cone_program[1];
-        self.walk_steps += other.walk_steps;
-    }
-
-    /// All of them; one pair may fail in several ways.
-    pub fn failures(&self) -> u64 {
-        self.failures.values().sum()
-    }
-
-    /// All families' times.
-    pub fn time(&self, call: Call) -> &Distribution {
-        &self.times[place_of(call)]
     }
 }

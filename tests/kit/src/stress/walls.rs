@@ -1,11 +1,11 @@
 //! Contacts with planes and triangles, each judged against the least S in 32 digits.
 
+use crate::pair_line::{Place, Shape};
 use crate::random::Random;
 use crate::stress::boundaries::Case;
 use crate::stress::cases::stream;
 use crate::stress::least::{Least, least};
 use crate::stress::ledger::{Fault, Finding, Ledger};
-use crate::stress::line::{At, Shape, shape};
 use crate::stress::memories::{Raw, any};
 use crate::stress::placed_boundary::{Beside, Boundary, Part, beside};
 use crate::stress::reference::Body;
@@ -54,7 +54,7 @@ struct Written<'a> {
     #[serde(rename = "A")]
     a: Shape,
     #[serde(rename = "a")]
-    at: At,
+    at: Place,
     boundary: &'a Boundary,
     settings: Chosen,
     answer: String,
@@ -110,8 +110,8 @@ pub fn one(seed: u64, index: u64, solver: Solver, ledger: &mut Ledger) {
 
 fn written(case: &Case, verdict: &Verdict) -> serde_json::Value {
     let written = Written {
-        a: shape(&case.particle),
-        at: (&case.at).into(),
+        a: (&case.particle).into(),
+        at: case.at,
         boundary: &case.boundary,
         settings: (&case.settings).into(),
         answer: verdict.answer.clone(),
@@ -163,12 +163,11 @@ impl Scene<'_> {
         let mut random = stream(memory.seed, 16, memory.index);
         let size = particle.bounding_radius();
         let beside = |random: &mut Random, share: f64| {
-            let way: [f64; 3] = (share * size * random.direction()).into();
-            let position = [0, 1, 2].map(|i| at.position[i] + way[i]);
+            let way = share * size * random.direction_in(particle.is_in_plane());
+            let pose = at.at(Vector3::from(at.position) + way).pose();
             let mut state = PairState::default();
             let settings = Settings::default().with_solve_separated(true);
             // Without an answer there is nothing to remember.
-            let pose = Pose::new(position, at.orientation).expect("a pose beside another one");
             let _ = solve(particle, &pose, boundary, &settings, Some(&mut state));
             state.into_raw()
         };
@@ -187,7 +186,7 @@ impl Scene<'_> {
 
     fn least(&self, least_sphericity: f64) -> Least {
         let Case { particle, at, boundary, .. } = self.case;
-        least(particle, at.position, at.orientation, boundary, least_sphericity)
+        least(particle, at, boundary, least_sphericity)
     }
 
     fn truth(&self, settings: &Settings, flags: Option<Flags>) -> Truth {
@@ -260,8 +259,8 @@ impl Scene<'_> {
         let fine = c.kind == Kind::Separated && c.s >= 1.0 && c.distance >= 0.0;
         verdict.check(fine, Fault::Malformed, || format!("rejected with s={:e}, distance {:e}", c.s, c.distance));
         let most = truth.given.most;
-        verdict.check(most >= 1.0 - 4.0 * EPS, Fault::LostContact, || format!("rejected, true s={most:e}"));
-        verdict.check(c.s <= most * (1.0 + 4.0 * EPS), Fault::Gap, || {
+        verdict.check(most >= 1.0 - 4.0 * EPS, Fault::WrongSide, || format!("rejected, true s={most:e}"));
+        verdict.check(c.s <= most * (1.0 + 4.0 * EPS), Fault::BoundOfS, || {
             format!("s is at least {:e} it says, true s={most:e}", c.s)
         });
         self.distance(c, truth, verdict);
@@ -279,9 +278,9 @@ impl Scene<'_> {
         let known = gap.min(MOST_GAP);
         let given = &truth.given;
         let lost = c.kind == Kind::Separated && given.most < 1.0 - known;
-        verdict.check(!lost, Fault::LostContact, || format!("s={s:e} ± {gap:e}, truth {:e}", given.most));
+        verdict.check(!lost, Fault::WrongSide, || format!("s={s:e} ± {gap:e}, truth {:e}", given.most));
         let invented = c.kind == Kind::Overlapping && given.least > 1.0 + known;
-        verdict.check(!invented, Fault::InventedContact, || format!("s={s:e} ± {gap:e}, truth {:e}", given.least));
+        verdict.check(!invented, Fault::WrongSide, || format!("s={s:e} ± {gap:e}, truth {:e}", given.least));
         let open = s - gap < 1.0 && 1.0 < s + gap;
         // A raised regularisation is asked for with the gap that it leaves.
         let raised = self.case.settings.flat_regularisation > Settings::default().flat_regularisation
@@ -289,7 +288,7 @@ impl Scene<'_> {
         verdict.check(!(open && gap > MOST_GAP) || raised, Fault::SaysNothing, || {
             format!("s={s:e} ± {gap:e}, truth {most:e}")
         });
-        for (fault, least, most) in [(Fault::Gap, least, most), (Fault::GapOfGiven, given.least, given.most)] {
+        for (fault, least, most) in [(Fault::BoundOfS, least, most), (Fault::GapOfGiven, given.least, given.most)] {
             let off = (s - most).max(least - s);
             // A gap of 0 leaves the last digit of s.
             verdict.check(off <= gap + EPS * s, fault, || {
@@ -320,7 +319,7 @@ impl Scene<'_> {
         verdict.unsettled += u64::from(!certain && !truth.regularised.iter().any(near));
         let off = truth.regularised.iter().map(distance).fold(f64::INFINITY, f64::min);
         let size = self.case.particle.bounding_radius();
-        verdict.check(!certain || truth.regularised.iter().any(near), Fault::PointBound, || {
+        verdict.check(!certain || truth.regularised.iter().any(near), Fault::BoundOfPoint, || {
             let bound = c.point_bound;
             format!("{off:e} off, bound {bound:e}, {:.2e} of it, {:.2e} sizes", off / bound, off / size)
         });
@@ -335,7 +334,7 @@ impl Scene<'_> {
     }
 
     fn beside(&self, x: &Vector3<f64>, feature: Feature) -> Beside {
-        beside(&self.case.boundary, self.case.at.position, self.case.at.orientation, x, part(feature))
+        beside(&self.case.boundary, &self.case.at, x, part(feature))
     }
 
     fn normal(&self, c: &FlatContact, truth: &Truth, verdict: &mut Verdict) {
@@ -381,7 +380,7 @@ impl Scene<'_> {
     /// S = 1 at the end of the overlap, for the particle as given.
     fn overlap(&self, c: &FlatContact, verdict: &mut Verdict) {
         let Case { particle, at, .. } = self.case;
-        let body = Body::new(particle, at.position, at.orientation, at.position);
+        let body = Body::new(particle, at, at.position);
         let x = self.at(c);
         let start = Wide3::from(x);
         let tolerance = 64.0 * EPS * (x.norm() + c.overlap + particle.bounding_radius());
@@ -468,6 +467,7 @@ fn well_formed(case: &Case, c: &FlatContact, verdict: &mut Verdict) {
         && c.gap >= 0.0
         && c.point_bound >= 0.0
         && (c.normal.norm() - 1.0).abs() < 1e-14
+        && (!case.particle.is_in_plane() || [c.point, c.branch, c.on_boundary, c.normal].iter().all(|v| v.z == 0.0))
         && [c.point, c.branch, c.on_boundary].iter().all(finite)
         && overlapping == (c.s < 1.0)
         && overlapping == (c.overlap.is_finite() && c.overlap >= 0.0)
@@ -478,17 +478,4 @@ fn well_formed(case: &Case, c: &FlatContact, verdict: &mut Verdict) {
         && (!overlapping || (c.on_particle - c.on_boundary - c.overlap * c.normal).norm() <= rounding)
         && (overlapping || c.point == c.on_boundary);
     verdict.check(fine, Fault::Malformed, || format!("{c:?}"));
-}
-
-/// One case again, with everything that is known about it.
-pub fn replay(seed: u64, index: u64) -> bool {
-    let case = Case::of(seed, index);
-    println!("seed {seed}, index {index}, {}", case.family);
-    let verdict = judge(&case, solve);
-    for (fault, detail) in &verdict.faults {
-        println!("{fault:?}: {detail}");
-    }
-    println!("{}", written(&case, &verdict));
-    println!("answer: {}\ntruth: {}", verdict.answer, verdict.truth);
-    verdict.faults.is_empty()
 }

@@ -1,14 +1,14 @@
 //! What every right answer must satisfy, whatever the truth is.
 
 use super::solutions::{explained, is_right, same};
-use super::{Doubt, EPS, FULL, Failure, LOOSE, Scene, Shared, Verdict};
-use crate::double::Placed;
+use super::{Doubt, EPS, FULL, Fault, LOOSE, Scene, Shared, Verdict};
+use crate::pair_line::Place;
 use crate::random::Random;
-use crate::stress::cases::{Case, Place};
-use crate::stress::reference::Body;
-use crate::wide::{Wide, Wide3};
-use nalgebra::{Matrix3, Quaternion, UnitQuaternion, Vector3};
-use potential_particles::{Contact, Formulation, Kind, Pose, Settings, detect, detect_batch};
+use crate::stress::cases::{Case, Shapes};
+use crate::stress::reference::{Body, sum};
+use crate::wide::{Wide, Wide3, solve};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use potential_particles::{Contact, Formulation, Kind, Settings, detect, detect_batch};
 
 pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
     let finite = |v: &Vector3<f64>| v.iter().all(|c| c.is_finite());
@@ -23,6 +23,7 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
         && finite(&c.point)
         && finite(&c.branch_a)
         && finite(&c.branch_b)
+        && stays_in_plane(scene.case.shapes, c)
         && overlapping == (c.s < 1.0)
         && overlapping == (c.overlap.is_finite() && c.overlap >= 0.0)
         && overlapping == finite(&c.point_on_a)
@@ -35,7 +36,13 @@ pub(super) fn well_formed(verdict: &mut Verdict, scene: &Scene, c: &Contact) {
             || ((c.point_on_a - c.point_on_b).norm() - c.overlap).abs() <= rounding
                 && (c.formulation != Formulation::Midway
                     || (c.point_on_a - c.point_on_b - c.overlap * c.normal).norm() <= rounding));
-    verdict.check(fine && consistent, Failure::Malformed, || format!("{c:?}"));
+    verdict.check(fine && consistent, Fault::Malformed, || format!("{c:?}"));
+}
+
+/// Of shapes in the plane z stays 0, unless it is no number.
+pub fn stays_in_plane(shapes: &Shapes, c: &Contact) -> bool {
+    let all = [c.point, c.normal, c.branch_a, c.branch_b, c.point_on_a, c.point_on_b];
+    !shapes.is_flat() || all.iter().all(|v| v.z.is_nan() || v.z == 0.0)
 }
 
 /// A gap beyond this that leaves open whether they touch is no answer.
@@ -43,7 +50,7 @@ const MOST_GAP: f64 = 1e-2;
 
 pub(super) fn says_something(verdict: &mut Verdict, c: &Contact) {
     let open = c.gap > MOST_GAP && c.s - c.gap < 1.0 && 1.0 < c.s + c.gap;
-    verdict.check(!open, Failure::SaysNothing, || format!("s={:e} ± {:e}", c.s, c.gap));
+    verdict.check(!open, Fault::SaysNothing, || format!("s={:e} ± {:e}", c.s, c.gap));
 }
 
 /// A batch of one pair is, to the last bit, the call for it alone.
@@ -61,15 +68,13 @@ pub(super) fn batched(verdict: &mut Verdict, scene: &Scene) {
         },
         Err(_) => alone.is_err(),
     };
-    verdict.check(same, Failure::Batch, || format!("{alone:?}"));
+    verdict.check(same, Fault::Batch, || format!("{alone:?}"));
 }
 
 /// Relative to s or 1: nearer than this doubles need not come.
 const NEAR: f64 = 1e-6;
 /// The same, in what the rounding of lengths does to s².
 const ROUGHLY: f64 = 1e2;
-/// Share of the curvature in all that is added in each direction.
-const HOLD: f64 = 1e-15;
 /// Share of what is allowed beyond which the second solver is asked.
 pub(super) const NEARLY: f64 = 0.5;
 /// The same of a gap that is too loose; lower, since the point is not quite that of the truth.
@@ -77,56 +82,49 @@ const NEARLY_LOOSE: f64 = 0.1;
 /// Steps by which the linear functions are levelled.
 const MOST_STEPS: usize = 4;
 
-/// What doubles prove at the answer's point: s² is at most the larger S there, and at least what linear functions below
-/// both bodies have in common; both but for a bound on rounding. Where that is near the answer, and its gap is what
-/// rounding explains, nothing is in doubt.
+/// What is proved at the answer's point: s² is at most the larger S there, and at least what linear functions below
+/// both bodies have in common. Where that is near the answer, and its gap is what rounding explains, nothing is in
+/// doubt.
 pub(super) fn enclosed(verdict: &mut Verdict, scene: &Scene, contact: &Contact, start: &Vector3<f64>) {
     let (s, gap) = (contact.s, contact.gap);
-    let weights = [1.0 - contact.weight, contact.weight];
-    let risen = scene.placed.each_ref().map(|body| body.risen(start, EPS * scene.length));
+    let mut x = Wide3::from(*start);
+    let risen = scene.bodies.each_ref().map(|body| body.risen(&x, EPS * scene.length));
     let rounding = explained(scene, s.max(1.0), contact.weight, risen);
     verdict.doubt(!(gap * (2.0 * s + gap) <= NEARLY_LOOSE * LOOSE * rounding), Doubt::Gap);
 
+    let at = |x: &Wide3| scene.bodies.each_ref().map(|body| body.at(x));
+    // Weights that sum up to 1 in 32 digits.
+    let of_b = Wide::from(contact.weight);
+    let of_a = Wide::ONE - of_b;
     let (mut least, mut most) = (0.0_f64, f64::INFINITY);
     let mut near = false;
-    let mut step = Vector3::zeros();
     for _ in 0..MOST_STEPS {
-        let locals = scene.placed.each_ref().map(|body| body.near(start, &step));
-        let [a, b] = &locals;
-        most = most.min((a.value + a.error).max(b.value + b.error));
-        let slope = weights[0] * a.slope + weights[1] * b.slope;
-        let lost = weights[0] * a.slope_error + weights[1] * b.slope_error + 4.0 * EPS * slope.norm();
-        let value = weights[0] * (a.below - a.below_error) + weights[1] * (b.below - b.below_error);
-        let reach = scene.placed.each_ref().map(|body| body.farthest(start, most));
-        let reach = reach[0].min(reach[1]) * (1.0 + 1e-10);
-        least = least.max(value - 4.0 * EPS * value.abs() - (slope.norm() + lost) * reach);
+        let [a, b] = at(&x);
+        most = most.min(a.value.max(b.value).f64());
+        let slope = a.gradient.times(of_a).plus(&b.gradient.times(of_b));
+        let reach = scene.bodies.each_ref().map(|body| body.farthest(&x, most));
+        let reach = Wide::from(reach[0].min(reach[1]) * (1.0 + 1e-10));
+        least = least.max((a.value * of_a + b.value * of_b - slope.norm() * reach).f64());
         // Where s vanishes its square is what is known; and no one knows more than rounding allows.
         near = most.sqrt() - least.sqrt() <= NEAR * s.max(1.0) + gap || most - least <= ROUGHLY * rounding;
         if near {
             break;
         }
-        // Newton's step levels the sum, where the planes stay, and what λ would do on top makes both S equal, with what
-        // rounding could add to each.
-        let [of_a, of_b] = [0, 1].map(|i| weights[i] * scene.placed[i].hessian(&(start + step)));
-        let sum: Matrix3<f64> = of_a + of_b;
-        // Planes alone may leave a direction free.
-        let held = sum + Matrix3::from_diagonal_element(HOLD * sum.trace());
-        let Some(factors) = held.cholesky() else { break };
-        let level = factors.solve(&slope);
-        let apart = a.slope - b.slope;
-        let way = factors.solve(&apart);
-        let behind = (a.value + a.error - a.slope.dot(&level)) - (b.value + b.error - b.slope.dot(&level));
+        // Newton's step levels the sum, where the planes stay, and what λ would do on top makes both S equal.
+        let hessian = sum(&a.hessian.map(|entry| entry * of_a), &b.hessian, of_b);
+        let (level, apart) = (solve(&hessian, &slope), a.gradient.minus(&b.gradient));
+        let way = solve(&hessian, &apart);
+        let behind = a.value - b.value - apart.dot(&level);
         let share = behind / apart.dot(&way);
-        step -= level;
+        x = x.minus(&level);
         if share.is_finite() {
-            let aside = step - share * way;
-            let [a, b] = scene.placed.each_ref().map(|body| body.near(start, &aside));
-            most = most.min((a.value + a.error).max(b.value + b.error));
+            let [a, b] = at(&x.minus(&way.times(share)));
+            most = most.min(a.value.max(b.value).f64());
         }
     }
     let (below, above) = (least.sqrt() * (1.0 - 2.0 * EPS), most.sqrt() * (1.0 + 2.0 * EPS));
-    verdict.check(!(s - gap > above), Failure::BoundOfS, || format!("s={s:e} ± {gap:e}, but at most {above:e}"));
-    verdict.check(!(s + gap < below), Failure::BoundOfS, || format!("s={s:e} ± {gap:e}, but at least {below:e}"));
+    verdict.check(!(s - gap > above), Fault::BoundOfS, || format!("s={s:e} ± {gap:e}, but at most {above:e}"));
+    verdict.check(!(s + gap < below), Fault::BoundOfS, || format!("s={s:e} ± {gap:e}, but at least {below:e}"));
     verdict.doubt(!near, Doubt::Enclosure);
 }
 
@@ -138,11 +136,7 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
     let n = contact.normal;
     for (i, point, outwards, name) in [(0, contact.point_on_a, n, "A"), (1, contact.point_on_b, -n, "B")] {
         let point = point - scene.at_b.position();
-        let (off, doubt) = scene.placed[i].at(&point).off_surface();
-        if off + doubt <= allowed {
-            continue;
-        }
-        let body = &scene.bodies()[i];
+        let body = &scene.bodies[i];
         let off = off_surface(body, &point);
         // Where s bends within the rounding of the point, the first order says nothing: then there has to be a point
         // inside and one outside within that.
@@ -159,7 +153,7 @@ pub(super) fn surfaces(verdict: &mut Verdict, scene: &Scene, contact: &Contact) 
         // A plane nearly parallel to the line may bound the body at the exact point and be inactive at the rounded one.
         let beside = || inside(point) && body.inset(allowed).at(&Wide3::from(point)).value.f64() > 1.0;
         let between = off <= allowed || straddles(outwards) || across().is_some_and(straddles) || beside();
-        verdict.check(between, Failure::OffSurface, || {
+        verdict.check(between, Fault::OffSurface, || {
             format!("{:?}: point on {name} {off:e} off, allowed {allowed:e}", contact.formulation)
         });
     }
@@ -188,7 +182,7 @@ pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, sta
     if let Some(after) = overlaps.then(|| moved(verdict, scene, less * n, Kind::Overlapping, thorough)).flatten() {
         let doubt = after.gap + displaced(scene, &after, &(less * n));
         let right = after.kind == Kind::Overlapping || after.s - doubt <= 1.0;
-        verdict.check(right, Failure::FlipsEarly, || {
+        verdict.check(right, Fault::FlipsEarly, || {
             format!("moved by {less:e} of {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
         });
     }
@@ -198,7 +192,7 @@ pub(super) fn flips(verdict: &mut Verdict, scene: &Scene, contact: &Contact, sta
     if let Some(after) = sensible.then(|| moved(verdict, scene, apart * n, Kind::Separated, thorough)).flatten() {
         let doubt = after.gap + displaced(scene, &after, &(apart * n));
         let right = after.kind == Kind::Separated || after.s + doubt >= 1.0;
-        verdict.check(right, Failure::FlipsLate, || {
+        verdict.check(right, Fault::FlipsLate, || {
             format!("moved by {apart:e}, overlap {:e}: s={:e} ± {:e}", contact.overlap, after.s, after.gap)
         });
     }
@@ -211,7 +205,7 @@ fn moved(verdict: &mut Verdict, scene: &Scene, by: Vector3<f64>, kind: Kind, tho
     let mut answer = |settings: &Settings| match scene.detect(&at_b, settings, None) {
         Ok(after) => Some(after),
         Err(error) => {
-            verdict.fail(Failure::Error, format!("moved by {:e}: {error}", by.norm()));
+            verdict.fail(Fault::NotSolved, format!("moved by {:e}: {error}", by.norm()));
             None
         }
     };
@@ -223,7 +217,7 @@ fn moved(verdict: &mut Verdict, scene: &Scene, by: Vector3<f64>, kind: Kind, tho
         return Some(quick);
     }
     let full = answer(&FULL)?;
-    verdict.check(quick.kind == full.kind || (full.s - 1.0).abs() <= full.gap, Failure::Reject, || {
+    verdict.check(quick.kind == full.kind || (full.s - 1.0).abs() <= full.gap, Fault::Reject, || {
         format!(
             "moved by {:e}: quick {:?} {:?}, full s={:e} ± {:e}",
             by.norm(),
@@ -237,37 +231,16 @@ fn moved(verdict: &mut Verdict, scene: &Scene, by: Vector3<f64>, kind: Kind, tho
 }
 
 /// How far both bodies together reach beyond P3 along the normal: their tangent planes, tilted by what the normal is
-/// off. In doubles where rounding adds no more than the slack there is, else in 32 digits.
+/// off.
 fn tangents(scene: &Scene, contact: &Contact, start: &Vector3<f64>) -> f64 {
-    let directions = [contact.normal, -contact.normal];
-    let farthest = [0, 1].map(|i| {
-        let body = &scene.placed[i];
-        (start - body.centre()).norm() + body.bounding_radius()
-    });
-    let (mut sum, mut doubt) = (0.0, 0.0);
-    for i in 0..2 {
-        let local = scene.placed[i].at(start);
-        let steep = local.gradient.norm();
-        let lost = local.gradient_error / steep;
-        let reach = (1.0 - local.value) / steep;
-        sum += reach + (local.gradient / steep - directions[i]).norm() * farthest[i];
-        doubt += local.error / steep + 2.0 * lost * (reach.abs() + farthest[i]);
-        if !(lost < 0.25) {
-            doubt = f64::INFINITY;
-        }
-    }
-    if doubt <= 1e-4 * sum.abs() + EPS * scene.length {
-        return sum + doubt;
-    }
     let x = Wide3::from(*start);
-    let mut sum = 0.0;
-    for (i, body) in scene.bodies().iter().enumerate() {
+    let reach = |(body, direction): (&Body, Vector3<f64>)| {
         let local = body.at(&x);
         let steep = local.gradient.norm().f64();
-        let outward = local.gradient.f64() / steep;
-        sum += (Wide::ONE - local.value).f64() / steep + (outward - directions[i]).norm() * farthest[i];
-    }
-    sum
+        let tilt = (local.gradient.f64() / steep - direction).norm();
+        (Wide::ONE - local.value).f64() / steep + tilt * body.farthest(&x, 1.0)
+    };
+    scene.bodies.iter().zip([contact.normal, -contact.normal]).map(reach).sum()
 }
 
 pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
@@ -276,24 +249,24 @@ pub(super) fn swapped(verdict: &mut Verdict, scene: &Scene, one: &Contact) {
         Ok(mut other) => {
             // What was B is A now.
             other.branch_b = other.branch_a;
-            same(verdict, Failure::Swap, one, &other, scene);
+            same(verdict, Fault::Swap, one, &other, scene);
         }
-        Err(error) => verdict.fail(Failure::Error, format!("swapped: {error}")),
+        Err(error) => verdict.fail(Fault::NotSolved, format!("swapped: {error}")),
     }
 }
 
 pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before: &Contact, random: &mut Random) {
-    let q = [random.normal(), random.normal(), random.normal(), random.normal()];
-    let turn = UnitQuaternion::from_quaternion(Quaternion::new(q[0], q[1], q[2], q[3]));
-    let shift = scene.length * random.direction();
+    let [w, x, y, z] = random.turn_in(case.shapes.is_flat());
+    let turn = UnitQuaternion::from_quaternion(Quaternion::new(w, x, y, z));
+    let shift = scene.length * scene.direction(random);
     let carry = |place: &Place| {
-        let [w, x, y, z] = place.orientation;
+        let [w, x, y, z] = place.pose().orientation();
         let q = turn.quaternion() * Quaternion::new(w, x, y, z);
-        let position = turn * Vector3::from(place.position) + shift;
-        Pose::new(position.into(), [q.w, q.i, q.j, q.k]).expect("a pose turned is a pose")
+        let position = (turn * Vector3::from(place.position) + shift).into();
+        Place { position, orientation: [q.w, q.i, q.j, q.k], angle: None }
     };
     let (at_a, at_b) = (carry(&case.at_a), carry(&case.at_b));
-    match (scene.solver)(scene.a, &at_a, scene.b, &at_b, &FULL, None) {
+    match (scene.solver)(scene.a, &at_a.pose(), scene.b, &at_b.pose(), &FULL, None) {
         Ok(after) => {
             // The rounding of a turn moves a point in proportion to its distance from the centres, which can be any
             // length where a body has no plane on one side.
@@ -310,17 +283,16 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
             // The poses are rounded anew. Where that does more to s than the first order, each answer has to be that of
             // its own poses.
             let right = right || {
-                let place = |pose: &Pose| (*pose.position()).into();
-                let [of_a, of_b] = [(scene.a, &at_a), (scene.b, &at_b)]
-                    .map(|(particle, at)| Body::new(particle, place(at), at.orientation(), place(&at_b)));
-                is_right(scene.bodies(), before) && is_right(&[of_a, of_b], &after)
+                let [of_a, of_b] =
+                    [(scene.a, &at_a), (scene.b, &at_b)].map(|(body, at)| Body::new(body, at, at_b.position));
+                is_right(&scene.bodies, before) && is_right(&[of_a, of_b], &after)
             };
             let right = right || (before.s - after.s).abs() <= allowed + moved_along_normal(scene, before, rounding);
-            verdict.check(right, Failure::RigidMotion, || {
+            verdict.check(right, Fault::RigidMotion, || {
                 format!("s={:e} and {:e}, allowed {allowed:e}", before.s, after.s)
             });
         }
-        Err(error) => verdict.fail(Failure::Error, format!("carried along: {error}")),
+        Err(error) => verdict.fail(Fault::NotSolved, format!("carried along: {error}")),
     }
 }
 
@@ -329,44 +301,34 @@ pub(super) fn carried(verdict: &mut Verdict, case: &Case, scene: &Scene, before:
 /// digits do not settle the pair: no gradient at the point shows then how steep s is, while the change of s itself
 /// does.
 fn moved_along_normal(scene: &Scene, before: &Contact, length: f64) -> f64 {
-    let s_at = |way: f64| {
-        let position = scene.at_b.position() + way * before.normal;
-        let moved = Pose::new(position.into(), scene.at_b.orientation()).ok()?;
-        (scene.solver)(scene.a, &scene.at_a, scene.b, &moved, &FULL, None).ok().map(|contact| contact.s)
-    };
+    let s_at = |way: f64| scene.detect(&scene.moved(way * before.normal), &FULL, None).ok().map(|contact| contact.s);
     s_at(-length).zip(s_at(length)).map_or(0.0, |(nearer, farther)| (farther - nearer).max(0.0))
 }
 
 /// What the rounding of a position far from the origin does to s after B was moved: it is not moved by just that.
 fn displaced(scene: &Scene, after: &Contact, by: &Vector3<f64>) -> f64 {
-    let [a, b] = &scene.placed;
-    let at = after.branch_b;
-    4.0 * EPS * scene.far * steep(a, &(at + by)).max(steep(b, &at))
+    let steep = |i: usize, at: Vector3<f64>| scene.bodies[i].at(&Wide3::from(at)).steepness();
+    4.0 * EPS * scene.far * steep(0, after.branch_b + by).max(steep(1, after.branch_b))
 }
 
 /// What the rounding of lengths does to s, both ways of rounding counted.
 fn steepness(scene: &Scene, at: &Vector3<f64>) -> f64 {
-    scene.placed.iter().map(|body| steep(body, at)).fold(0.0, f64::max)
-}
-
-fn steep(body: &Placed, at: &Vector3<f64>) -> f64 {
-    let local = body.at(at);
-    (local.pull + local.gradient.norm()) / (2.0 * local.value.sqrt()).max(f64::MIN_POSITIVE)
+    scene.bodies.iter().map(|body| body.at(&Wide3::from(*at)).steepness()).fold(0.0, f64::max)
 }
 
 pub(super) fn in_other_units(verdict: &mut Verdict, scene: &Scene, before: &Contact, shared: &Shared) {
     let unit = 2f64.powi(shared.exponent);
     let [a, b] = &shared.in_other_units;
-    let place = |pose: &Pose| Pose::new((pose.position() * unit).into(), pose.orientation()).expect("finite");
-    match (scene.solver)(a, &place(&scene.at_a), b, &place(&scene.at_b), &FULL, None) {
+    let [at_a, at_b] = [scene.case.at_a, scene.case.at_b].map(|at| at.at(unit * Vector3::from(at.position)).pose());
+    match (scene.solver)(a, &at_a, b, &at_b, &FULL, None) {
         Ok(after) => {
             let same = after.s == before.s && after.branch_b == unit * before.branch_b && after.normal == before.normal;
             verdict.unit_digits = !same;
             let both = before.gap + after.gap;
-            verdict.check((before.s - after.s).abs() <= both, Failure::Units, || {
+            verdict.check((before.s - after.s).abs() <= both, Fault::Units, || {
                 format!("unit 2^{}: s={:e} and {:e}, gaps {both:e}", shared.exponent, before.s, after.s)
             });
         }
-        Err(error) => verdict.fail(Failure::Error, format!("unit 2^{}: {error}", shared.exponent)),
+        Err(error) => verdict.fail(Fault::NotSolved, format!("unit 2^{}: {error}", shared.exponent)),
     }
 }

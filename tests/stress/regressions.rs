@@ -1,7 +1,72 @@
-//! What fuzzing found, by shapes of its own.
+//! Every pair that once failed: `tests/data/regressions.jsonl` has them with the cause of each. And what fuzzing found,
+//! by shapes of its own.
 
+use crate::THREADS;
+use indicatif::ProgressBar;
+use kit::pair_line::Line;
+use kit::stress::cases::{Case, Shapes, stream};
+use kit::stress::judge::{Shared, Trial, judge};
+use kit::stress::ledger::parallel;
 use nalgebra::Vector3;
-use potential_particles::{Kind, Particle, Plane, Pose, Settings, detect};
+use potential_particles::{Contact, Formulation, Kind, Particle, Plane, Pose, Settings, detect};
+use serde::Deserialize;
+use std::sync::atomic::AtomicBool;
+
+#[derive(Deserialize)]
+struct Regression {
+    #[serde(flatten)]
+    pair: Line,
+    /// Seed and index of the motions and steps by which it failed, where others did not do.
+    #[serde(default)]
+    by: Vec<[u64; 2]>,
+}
+
+fn regressions() -> Vec<Regression> {
+    let text = include_str!("../data/regressions.jsonl");
+    text.lines().map(|line| serde_json::from_str(line).expect("a pair a line")).collect()
+}
+
+/// By the motions and steps of 50 seeds.
+#[test]
+fn every_pair_that_once_failed_is_right() {
+    let regressions = regressions();
+    let judged = |Regression { pair, by }: &Regression, wrong: &mut Vec<String>| {
+        let shapes = Shapes::of_line(pair);
+        let case = Case { shapes: &shapes, at_a: pair.a, at_b: pair.b };
+        for [seed, index] in (1..=50).map(|seed| [seed, 0]).chain(by.iter().copied()) {
+            let shared = Shared::of(&shapes.a, &shapes.b, &mut stream(seed, 3, 0));
+            let verdict = judge(&case, &shared, Trial::WHOLE, detect, &mut stream(seed, 4, index));
+            let faults = verdict.faults.iter();
+            wrong.extend(faults.map(|fault| format!("{}, seed {seed}, index {index}: {fault:?}", pair.what)));
+        }
+    };
+    let all = (0..regressions.len() as u64, 1);
+    let merge = |sum: &mut Vec<String>, more: Vec<String>| sum.extend(more);
+    let wrong = parallel(all, THREADS, &AtomicBool::new(false), &ProgressBar::hidden(), merge, |range, wrong| {
+        range.for_each(|index| judged(&regressions[index as usize], wrong));
+    });
+    assert!(regressions.len() > 90 && wrong.is_empty(), "{wrong:#?}");
+}
+
+/// The contact of the pair of this name, with default settings and without memory.
+fn solved(name: &str, formulation: Formulation) -> Contact {
+    let found = regressions().into_iter().find(|each| each.pair.what == name);
+    let Line { shape_a, shape_b, a, b, .. } = found.unwrap_or_else(|| panic!("no pair is called {name}")).pair;
+    let settings = Settings::default().with_formulation(formulation);
+    detect(&shape_a.particle(), &a.pose(), &shape_b.particle(), &b.pose(), &settings, None).expect("an answer")
+}
+
+#[test]
+fn closest_points_in_the_core_of_a_sharp_body_are_known() {
+    for name in ["closest_in_a_core", "closest_deep_in_each_other", "closest_deep_in_each_other_again"] {
+        for formulation in [Formulation::Midway, Formulation::Closest] {
+            let contact = solved(name, formulation);
+            assert!(contact.gap < 1e-9, "{name}, {formulation:?}: {contact:?}");
+        }
+    }
+    let contact = solved("closest_at_s_of_9e-6", Formulation::Closest);
+    assert!((contact.s - 9.3376e-6).abs() < 1e-9 + contact.gap && contact.gap < 1e-6, "{contact:?}");
+}
 
 /// A plane a billion away changes nothing about two cubes but the accuracy of their surface points, which is taken
 /// relative to the furthest plane.
