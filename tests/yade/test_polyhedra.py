@@ -61,7 +61,8 @@ for i, volume, points in zip(ids, volumes, corners):
     check.equal(type(shape).__name__, "ConicPotentialParticle", "class of the shape")
     lost = 1 - shape.volume / volume
     check.true(0 < lost <= 0.0101, f"volume lost of body {i}: {lost}")
-    particle = potential_particles.Particle(np.array([tuple(plane) for plane in shape.planes]), shape.r, shape.k, shape.R)
+    planes = np.array([tuple(plane) for plane in shape.planes])
+    particle = potential_particles.Particle(planes, shape.r, shape.k, shape.R)
     local = (points - np.array(state.pos)) @ np.array(state.ori.toRotationMatrix())
     # Nothing lies outside, and the larger faces, which come first, are touched.
     surface = particle.mesh(1e-3).vertices
@@ -77,6 +78,7 @@ O.engines = [
 O.step()
 check.close(O.interactions[2, 3].geom.penetrationDepth, 0.01, 1e-3, "overlap of the cubes, whose faces have not moved")
 check.close(abs(O.interactions[2, 3].geom.normal[2]), 1.0, 1e-6, "its normal")
-check.equal([one for one in potential_particles.check() if "the mass is not" in str(one)], [], "check() has nothing to say of mass")
+found = [one for one in potential_particles.check() if "the mass is not" in str(one)]
+check.equal(found, [], "check() has nothing to say of mass")
 check.equal(potential_particles.replace_polyhedra(), [], "and there are no more of them")
 check.finish()

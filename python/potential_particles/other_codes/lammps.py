@@ -46,8 +46,8 @@ def _places(words):
         line, row = words.line, words.row()
         with words.told(line):
             if len(row) not in (7, 10):
-                raise ValueError(f"an atom has {len(row)} numbers, and atom_style body has 7, id type bodyflag mass x y "
-                                 "z, or 10 with image flags")
+                raise ValueError(f"an atom has {len(row)} numbers, and atom_style body has 7, id type bodyflag mass "
+                                 "x y z, or 10 with image flags")
             atom, _, is_body = numbers(row[:3], int, 3, "an atom")
             x, y, z = numbers(row[4:7], float, 3, "the place of an atom")
             if is_body:
@@ -60,9 +60,9 @@ def _body(words, line):
     whole, many = words.count("ninteger"), words.count("ndouble")
     if whole != POLYHEDRON:
         raise ValueError(
-            f"{words.file}, line {line}: a body of {whole} whole number{'s' * (whole != 1)} is of style rounded/polygon "
-            "or nparticle, and only rounded/polyhedron, which has 3, is read: make polygons by Particle.polygon(points, "
-            "r), and clumps of spheres by shapes.sphere")
+            f"{words.file}, line {line}: ninteger={whole}, and only style rounded/polyhedron, which has 3, is read: "
+            "make bodies of rounded/polygon by Particle.polygon(points, r), and those of nparticle as clumps of "
+            "shapes.sphere")
     points, edges, faces = words.count("vertices", 1), words.count("edges"), words.count("faces")
     if points < 3:
         edges = faces = 0

@@ -31,7 +31,8 @@ class SpheroPolyhedron(typing.NamedTuple):
 
     shape: Shape  #: in the frame of the points
     volume: float  #: exact, length^3
-    excess: typing.Optional[float]  #: of the hull over the body, a share of the body's volume; None where that is unknown
+    #: of the volume of the hull over that of the body, a share of that; None where that is unknown
+    excess: typing.Optional[float]
 
 
 def sphero_polyhedron(points, radius, name, faces, stated=None):

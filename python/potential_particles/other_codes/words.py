@@ -60,26 +60,38 @@ class Words:
 
     def take(self, kind, count, what):
         """The next `count` words as numbers of a kind, int or float."""
-        with self.told():
-            found = numbers([word for _, word in self._words[self._at:self._at + count]], kind, count, what)
+        words = self._words[self._at:self._at + count]
+        try:
+            found = [kind(word) for _, word in words]
+        except ValueError:
+            # One by one, for the line of the first that is wrong.
+            found = []
+            for line, word in words:
+                with self.told(line):
+                    found += numbers([word], kind, 1, what)
+        if len(found) < count:
+            raise ValueError(f"{self.file} ends after {len(found)} of the {count} numbers of {what}")
         self._at += count
         return found
 
     def count(self, what, least=0):
         """The next word as how many of something there are."""
-        found, line = self.take(int, 1, what)[0], self.line
-        if found < least:
-            raise ValueError(f"{self.file}, line {line}: {what}={found} must be at least {least}")
-        return found
+        with self.told():
+            found = self.take(int, 1, what)[0]
+            if found < least:
+                raise ValueError(f"{what}={found} must be at least {least}")
+            return found
 
     def numbers(self, count, what):
-        """The next words as numbers that shapes can bear."""
-        with self.told():
-            found = np.array(self.take(float, count, what))
-            fine = np.abs(found) <= MOST
-            if not fine.all():
-                raise ValueError(f"{what}: {found[~fine][0]:g} must lie between {-MOST:g} and {MOST:g}")
-            return found
+        """The next words as an array of numbers that shapes can bear."""
+        begin = self._at
+        found = np.array(self.take(float, count, what), float)
+        fine = np.abs(found) <= MOST
+        if not fine.all():
+            wrong = int(np.argmin(fine))
+            with self.told(self._words[begin + wrong][0]):
+                raise ValueError(f"{what}: {found[wrong]:g} must lie between {-MOST:g} and {MOST:g}")
+        return found
 
     def rows(self, count, width, what):
         """So many rows of numbers, an array."""
@@ -87,12 +99,11 @@ class Words:
 
     def named(self, count, of, what, first=0):
         """The next words as indices, from 0, of what there are `of`, counted from `first`."""
-        line = self.line
-        found = self.take(int, count, f"a list of {what}")
-        for one in found:
-            if not first <= one < of + first:
-                raise ValueError(f"{self.file}, line {line}: {what} {one} is named, and there are {first} to "
-                                 f"{of + first - 1}")
+        with self.told():
+            found = self.take(int, count, f"a list of {what}")
+            for one in found:
+                if not first <= one < of + first:
+                    raise ValueError(f"{what} {one} is named, and there are {first} to {of + first - 1}")
         return [one - first for one in found]
 
     @contextlib.contextmanager
@@ -102,6 +113,6 @@ class Words:
         try:
             yield
         except ValueError as error:
-            said = str(error)
-            raise ValueError(said if said.startswith(f"{self.file}, line ") else f"{self.file}, line {line}: {said}"
-                             ) from None
+            if str(error).startswith(self.file):
+                raise
+            raise ValueError(f"{self.file}, line {line}: {error}") from None

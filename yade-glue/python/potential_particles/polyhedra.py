@@ -48,8 +48,8 @@ def replace_polyhedra(rounding=None, k=SPHERICITY, *, r=None):
         body.aspherical = True
     if found:
         warnings.warn_explicit(
-            f"potential_particles: replaced {len(found)} Polyhedra: rounding took {100.0 * lost / before:.3g} % of their "
-            f"volume, {100.0 * worst[0]:.3g} % at most (body {worst[1]}); mass and inertia are those of before",
+            f"potential_particles: replaced {len(found)} Polyhedra: rounding took {100.0 * lost / before:.3g} % of "
+            f"their volume, {100.0 * worst[0]:.3g} % at most (body {worst[1]}); mass and inertia are those of before",
             SceneWarning, "potential_particles", 0)
     return [body.id for body in found]
 
