@@ -14,12 +14,13 @@ ORIGIN, UPRIGHT = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
 class Bodies(list):
     """Placements of the bodies of a file, in place.
 
-    ids: their names or numbers in the file; volumes: what the code that wrote it takes for their volumes, length^3.
+    ids: their names or numbers in the file; volumes: of the bodies there, length^3, or of the convex hulls that they
+    became.
     """
 
-    def __init__(self, file):
+    def __init__(self, file, remedy="shapes.clump_from_mesh cuts a surface from a file (.stl, .obj) into convex parts"):
         super().__init__()
-        self.file, self.ids, self.volumes, self._hulls = file, [], [], {}
+        self.file, self.ids, self.volumes, self._hulls, self._remedy = file, [], [], {}, remedy
 
     @property
     def shapes(self):
@@ -36,7 +37,7 @@ class Bodies(list):
         return f"<Bodies of {self.file}: {len(self)}, volume {sum(one.shape.volume for one in self):.4g}>"
 
     def put(self, name, shape, volume, excess, accepted, position=ORIGIN, orientation=UPRIGHT):
-        """Adds a body; `volume`: that of the file.
+        """Adds a body.
 
         excess: of its convex hull over the body, a share of the body's volume, None where that is unknown. ValueError
         where that is not little, unless it is `accepted`.
@@ -45,8 +46,7 @@ class Bodies(list):
         if not (is_convex or accepted or excess is not None and excess <= WARNED):
             said = "its faces are open, and the file states no volume of it" if excess is None else \
                 f"its convex hull has {100.0 * excess:.3g} % more volume"
-            raise ValueError(f"{shape.name} is not convex: {said}. hull=True takes the hull; shapes.clump_from_mesh "
-                             "cuts a surface from a file (.stl, .obj) into convex parts")
+            raise ValueError(f"{shape.name} is not convex: {said}. hull=True takes the hull; {self._remedy}")
         if not is_convex:
             self._hulls[name] = excess
         self.ids.append(name)

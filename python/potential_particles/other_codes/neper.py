@@ -11,6 +11,7 @@ from .sphero_polyhedron import cone_volume
 from .words import Words
 
 WHY = "edges are rounded; rounding=0.01 loses less"
+REMEDY = "without regularisation (-reg 0) and cuts of the domain Neper makes convex cells"
 
 
 def read_tess(file, rounding=None, k=SPHERICITY, hull=False, scale=1.0):
@@ -22,7 +23,7 @@ def read_tess(file, rounding=None, k=SPHERICITY, hull=False, scale=1.0):
     hull=True: in any case. ValueError with file, line and value for what is no such file.
     """
     scale = positive(scale, "scale")
-    words, bodies = Words(file, ()), Bodies(file)
+    words, bodies = Words(file, ()), Bodies(file, REMEDY)
     if words.next != "***tess":
         raise ValueError(f"{words.file}, line {words.line}: a tessellation of Neper begins with ***tess")
     ids = _ids(words)
@@ -88,4 +89,4 @@ def _add(bodies, name, points, faces, known, scale, rounding, accepted):
         volume += cone_volume(polygon) * (1.0 if (across @ normal) * sign > 0.0 else -1.0)
     excess = hull.volume / volume - 1.0 if volume > 0.0 else None
     shape = fitting.of_surface(hull, own, hull.volume, rounding, f"cell {name}", "all")
-    bodies.put(name, shape, volume if volume > 0.0 else hull.volume, excess, accepted)
+    bodies.put(name, shape, hull.volume, excess, accepted)
