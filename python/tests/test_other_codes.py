@@ -192,7 +192,7 @@ class Neper(Files):
 
 
 def data_file(bodies, atoms):
-    return (f"LAMMPS data file\n\n{len(atoms)} atoms\n1 atom types\n{len(bodies)} bodies\n-9 9 xlo xhi\n\n"
+    return (f"Bodies and Atoms\n\n{len(atoms)} atoms\n1 atom types\n{len(bodies)} bodies\n-9 9 xlo xhi\n\n"
             f"Atoms # body\n\n{text(atoms)}\nVelocities\n\n{text((a[0], 0, 0, 0, 0, 0, 0) for a in atoms)}\n"
             f"Bodies\n\n{''.join(bodies)}")
 

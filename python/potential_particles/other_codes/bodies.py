@@ -6,7 +6,7 @@ from ..arguments import SceneWarning
 from ..fitting import WARNED
 from ..packing import Placement
 
-# Below this share a difference of volume is not told.
+# Of volume: below this share a difference is passed over.
 TOLD = 1e-3
 ORIGIN, UPRIGHT = (0.0, 0.0, 0.0), (1.0, 0.0, 0.0, 0.0)
 

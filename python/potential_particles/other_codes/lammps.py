@@ -19,7 +19,7 @@ def read_lammps_bodies(file, hull=False):
     words, bodies = Words(file), Bodies(file)
     places = _places(words)
     made = {}
-    if not words.back().find("Bodies"):
+    if not words.find("Bodies"):
         raise ValueError(f"{words.file} has no section Bodies: it is no data file of atom_style body")
     while words.next.isdigit():
         line, atom = words.line, words.count("atom")
@@ -39,6 +39,8 @@ def read_lammps_bodies(file, hull=False):
 
 def _places(words):
     """{atom: (x, y, z)} of the atoms that are bodies."""
+    # The first line is a title.
+    words.row()
     if not words.find("Atoms"):
         raise ValueError(f"{words.file} has no section Atoms: it is no data file of LAMMPS")
     found = {}

@@ -60,7 +60,10 @@ def _ids(words):
                          "3: let Neper make it with -dim 3")
     _find(words, "**cell")
     cells = words.count("cells", 1)
-    return words.take(int, cells, "*id") if words.find("*id", "**vertex") == "*id" else (words.back(), [])[1]
+    if words.find("*id", "**vertex") == "*id":
+        return words.take(int, cells, "*id")
+    words.back()
+    return []
 
 
 def _find(words, section):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""The words of a text one after the other; what is wrong with one is said with its file and line."""
+"""The words of a text, one after the other; what is wrong with one is said with its file and line."""
 import contextlib
 import os
 
@@ -56,7 +56,6 @@ class Words:
     def back(self):
         """To the beginning."""
         self._at = 0
-        return self
 
     def take(self, kind, count, what):
         """The next `count` words as numbers of a kind, int or float."""
