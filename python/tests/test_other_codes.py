@@ -174,10 +174,11 @@ class Neper(Files):
         self.assertAlmostEqual(sum(cells.volumes), 8, delta=1e-8)
         self.assertAlmostEqual(sum(one.shape.sharp_volume for one in cells), 8, delta=1e-8)
         self.assertAlmostEqual(cells.lost, 1 - sum(one.shape.volume for one in cells) / 8, delta=1e-8)
-        for one, seed in zip(cells, seeds):
-            # Each stands where its seed is nearest, which its centroid is in a Voronoi cell of any seed.
-            at = np.array(one.pose.position)
-            self.assertEqual(np.linalg.norm(2 * seeds - at, axis=1).argmin(), np.abs(seeds - seed).sum(1).argmin())
+        for i, one in enumerate(cells):
+            # All of a cell of Voronoi is nearest to its seed.
+            points = one.particle.mesh(0.05).vertices @ one.pose.rotation.T + one.pose.position
+            nearest = np.linalg.norm(points[:, None] - 2 * seeds, axis=2).argmin(1)
+            self.assertTrue((nearest == i).all())
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             self.assertTrue(0 < read_tess(self.folder / "cube.tess").lost <= 0.01)
@@ -223,6 +224,7 @@ class Lammps(Files):
         cases = [([square], atoms, "line 18: ninteger=1, and only style rounded/polyhedron.*Particle.polygon"),
                  ([good.replace("1 3 79", "1 3 78")], atoms, "line 18: ndouble=78, and 8 vertices.* have 79"),
                  ([good], [(2, *atoms[0][1:])], "line 18: body 1 has no atom whose bodyflag is 1"),
+                 ([good], [(1, 1, 0, 1.0, 0, 0, 0)], "line 18: body 1 has no atom whose bodyflag is 1"),
                  ([good], [atoms[0][:6]], "line 10: an atom has 6 numbers, and atom_style body has 7"),
                  ([good.replace("0 1 3 2\n", "0 1 3 9\n")], atoms, "line 41: a face names the vertices"),
                  ([good.replace("0.5", "-1")], atoms, "line 18: radius=-0.5 must be above 0")]
