@@ -1,8 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """The bodies of a file with their names there, and what became of their volume."""
-import warnings
-
-from ..arguments import SceneWarning
+from ..arguments import warn
 from ..fitting import WARNED
 from ..packing import Placement
 
@@ -66,6 +64,5 @@ class Bodies(list):
             said.append(f"the shapes have {100.0 * abs(self.lost):.2g} % {'less' if self.lost > 0 else 'more'} volume "
                         f"than the bodies, {self.ids[worst]} {100.0 * off[worst]:+.2g} %: {why}")
         if said:
-            warnings.warn_explicit(f"potential_particles: {self.file}: {'; '.join(said)}", SceneWarning,
-                                   "potential_particles", 0)
+            warn(f"{self.file}: {'; '.join(said)}")
         return self

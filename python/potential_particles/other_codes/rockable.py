@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Sphero-polyhedra from the shape files of Rockable and exaDEM."""
-from ..arguments import unit_quaternion
+from ..arguments import is_number, unit_quaternion
 from .bodies import ORIGIN, UPRIGHT, Bodies
 from .sphero_polyhedron import WHY, sphero_polyhedron
 from .words import Words
@@ -58,7 +58,7 @@ def _block(words, line):
             words.word()
         else:
             # Of what belongs to its search for contacts nothing is needed.
-            while words.next != ">" and _is_number(words.next):
+            while words.next != ">" and is_number(words.next):
                 words.word()
     words.word()
     for key in ("name", "radius", "nv"):
@@ -74,11 +74,3 @@ def _add(bodies, read, accepted):
     made = sphero_polyhedron(read["nv"], read["radius"], name, read.get("nf", []), read.get("volume"))
     bodies.put(name, made.shape, made.volume, made.excess, accepted, read.get("position", ORIGIN),
                unit_quaternion(read.get("orientation", UPRIGHT), "orientation"))
-
-
-def _is_number(word):
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True

@@ -6,7 +6,7 @@ import re
 
 import numpy as np
 
-from ..arguments import MANY, positive
+from ..arguments import MANY, is_number, positive
 from .joints import Joint, JointSet, joint, polygon
 
 
@@ -46,7 +46,7 @@ def _named_columns(file):
         filled = filter(None, (line.split("#")[0].strip() for line in _decoded(lines, file)))
         first, second = next(filled, ""), next(filled, "")
     words = _words(first)
-    if not second or any(map(_is_number, words)):
+    if not second or any(map(is_number, words)):
         return None
     if len(words) > len(_words(second)):
         # Names of two words, or with a unit, between blanks.
@@ -153,18 +153,18 @@ def _rows(file, columns, meaning, exactly=False, discs=False):
             # BlockGen's lines end with a separator.
             while words and not words[-1]:
                 words.pop()
-            if not found and not names and not any(map(_is_number, words)):
+            if not found and not names and not any(map(is_number, words)):
                 names = True
                 continue
             for column in columns:
                 word = words[column] if column < len(words) else "0"
                 # A disc without end has a radius of inf, and nothing else is infinite.
-                if not _is_number(word) or not math.isfinite(float(word)) and not (
+                if not is_number(word) or not math.isfinite(float(word)) and not (
                         discs and column == columns[-1] and float(word) == math.inf):
                     raise ValueError(f"{file}, line {number}, column {column + 1}: {word!r} is no finite number")
             if len(words) < width or exactly and len(words) != width:
                 raise ValueError(f"{file}, line {number}: {len(words)} numbers, and {width} are needed: {meaning}")
-            further = [] if discs else list(itertools.takewhile(_is_number, words[width:]))
+            further = [] if discs else list(itertools.takewhile(is_number, words[width:]))
             if not all(math.isfinite(float(word)) for word in further):
                 raise ValueError(f"{file}, line {number}: {', '.join(further)}: each must be finite")
             found.append((number, [float(word) for word in [words[column] for column in columns] + further]))
@@ -184,14 +184,6 @@ def _decoded(lines, file):
         yield from lines
     except UnicodeDecodeError as error:
         raise ValueError(f"{file} is no text in UTF-8: {error}") from None
-
-
-def _is_number(word):
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
 
 
 def _told(file, line, make):

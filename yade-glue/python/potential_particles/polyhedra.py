@@ -1,12 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """YADE's Polyhedra of a scene as potential particles, in place."""
 import dataclasses
-import warnings
 
 import numpy as np
 
 from . import fitting
-from .arguments import SceneWarning
+from .arguments import warn
 from .bodies import conic_particle
 from .polyhedron import Polyhedron, rotation
 from .rounding import SPHERICITY, Rounding
@@ -47,10 +46,8 @@ def replace_polyhedra(rounding=None, k=SPHERICITY, *, r=None):
         body.bound = None
         body.aspherical = True
     if found:
-        warnings.warn_explicit(
-            f"potential_particles: replaced {len(found)} Polyhedra: rounding took {100.0 * lost / before:.3g} % of "
-            f"their volume, {100.0 * worst[0]:.3g} % at most (body {worst[1]}); mass and inertia are those of before",
-            SceneWarning, "potential_particles", 0)
+        warn(f"replaced {len(found)} Polyhedra: rounding took {100.0 * lost / before:.3g} % of their volume, "
+             f"{100.0 * worst[0]:.3g} % at most (body {worst[1]}); mass and inertia are those of before")
     return [body.id for body in found]
 
 

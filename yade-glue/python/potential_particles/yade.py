@@ -269,5 +269,6 @@ def _load():
 
 _glue = _load()
 # After the classes that they serve.
-from .check import SceneWarning, check  # noqa: E402, F401
+from .arguments import SceneWarning  # noqa: E402, F401
+from .check import check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, plot_equilibrium, save_mesh  # noqa: E402, F401
