@@ -43,7 +43,8 @@ def sphero_polyhedron(points, radius, name, faces, stated=None):
     """
     radius = positive(radius, "radius")
     middle = points.mean(0)
-    _, extents, axes = np.linalg.svd(points - middle)
+    # By R of QR, which has three rows at most.
+    _, extents, axes = np.linalg.svd(np.linalg.qr(points - middle, mode="r"))
     size = max(radius, np.ptp(points, axis=0).max())
     dimension = int((extents > FLAT * size).sum())
     if dimension == 0:
