@@ -8,8 +8,9 @@ With <t> = max(t, 0) a particle is {x: S(x) <= 1} in its local frame,
 A Particle is made once for each shape; a body is a particle at a Pose. detect() finds the contact of two bodies, a
 Batch those of all pairs of a step on numpy arrays. `shapes` makes particles of points, surfaces, scans and names of
 solids, `packing` fills containers with them, `rock` cuts rock into blocks, `equilibrium` says whether bodies stand,
-`lammps` writes and draws LAMMPS's files. Particle.in_plane and Pose.in_plane make bodies of two dimensions. Lengths are
-in the caller's unit, quaternions (w, x, y, z), vectors in world axes unless said otherwise.
+`lammps` writes and draws LAMMPS's files, `other_codes` reads bodies of other codes. Particle.in_plane and Pose.in_plane
+make bodies of two dimensions. Lengths are in the caller's unit, quaternions (w, x, y, z), vectors in world axes unless
+said otherwise.
 
 In YADE, with the plugin, the names of `potential_particles.yade` stand here, too.
 """

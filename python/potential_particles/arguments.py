@@ -2,12 +2,18 @@
 """Numbers as a script gives them: each is checked before anything is made of it."""
 import importlib
 import math
+import warnings
 
 import numpy as np
 
 
 class SceneWarning(UserWarning):
     """What is allowed and may surprise: shapes that lose volume, and, in YADE, what check() finds."""
+
+
+def warn(text):
+    """Gives a SceneWarning without a place in a source file: it is about a scene or a shape, and stays one line."""
+    warnings.warn_explicit(f"potential_particles: {text}", SceneWarning, "potential_particles", 0)
 
 
 # Of what a script gives. Fifth powers of lengths, as moments of inertia are, and what is made of a few of them, are
@@ -28,6 +34,15 @@ def needed(module, package):
     except ImportError as error:
         raise ImportError(f"this needs the Python package {package}, of which {module} cannot be imported ({error}): "
                           f"pip install {package}, or Debian's") from None
+
+
+def is_number(word):
+    """Whether a word of a file is a number, finite or not."""
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
 
 
 def number(value, name):

@@ -6,11 +6,10 @@ near they come is measured.
 """
 import dataclasses
 import math
-import warnings
 
 import numpy as np
 
-from .arguments import SceneWarning, positive, whole
+from .arguments import positive, warn, whole
 from .polyhedron import fitted, rotation, rounded
 from .rounding import ROUNDING
 from .shape import Fit
@@ -48,7 +47,7 @@ def of_surface(hull, samples, volume, rounding, name, planes=None, error=None):
     if error is None:
         shape = _of_planes(hull, samples, volume, most, rounding, name)
         if by_default:
-            _warn(f"{name}: {len(shape.planes)} planes in the place of the {len(hull.planes)} faces of the hull, up to "
+            warn(f"{name}: {len(shape.planes)} planes in the place of the {len(hull.planes)} faces of the hull, up to "
                   f"{shape.fit.largest:.2g} of its diameter off: planes=N or error=e chooses, planes=\"all\" keeps all")
         return shape
     error, closest = positive(error, "error"), math.inf
@@ -68,15 +67,11 @@ def warn_of_volume(shape, what):
     """SceneWarning where the volume of a shape is more than 2 % off that of its surface."""
     off = shape.volume / shape.fit.volume - 1.0
     if abs(off) > WARNED:
-        _warn(
+        warn(
             f"{what}: the shape has {100.0 * abs(off):.2g} % {'more' if off > 0 else 'less'} volume than the surface: "
             + ("it is not convex; planes=N keeps the volume, shapes.clump_from_mesh the form" if off >
                0 else f"leave r={shape.r:.3g} out, give a smaller one, or planes=N, which keeps the volume"))
     return shape
-
-
-def _warn(text):
-    warnings.warn_explicit(f"potential_particles: {text}", SceneWarning, "potential_particles", 0)
 
 
 def _of_planes(hull, samples, volume, number, rounding, name):

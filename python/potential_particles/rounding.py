@@ -9,7 +9,7 @@ import math
 import typing
 import warnings
 
-from .arguments import SceneWarning, number, positive, within
+from .arguments import number, positive, warn, within
 
 # What docs/shapes.md advises.
 ROUNDING, SPHERICITY = 0.05, 0.02
@@ -57,10 +57,8 @@ class Rounding(typing.NamedTuple):
     def told_of(self, shape):
         """The shape, with a SceneWarning if the shadow sphere of a given R cuts off a part of it."""
         if self.R is not None and shape.k > 0.0 and shape.bounding_radius >= (1.0 - 1e-9) * shape.R / math.sqrt(shape.k):
-            warnings.warn_explicit(
-                f"potential_particles: {shape.name}: R={self.R:g}: a sphere of radius R/sqrt(k)="
-                f"{shape.R / math.sqrt(shape.k):.6g} cuts off what lies beyond; leave R out, or take a larger one",
-                SceneWarning, "potential_particles", 0)
+            warn(f"{shape.name}: R={self.R:g}: a sphere of radius R/sqrt(k)={shape.R / math.sqrt(shape.k):.6g} cuts off "
+                 "what lies beyond; leave R out, or take a larger one")
         return shape
 
 

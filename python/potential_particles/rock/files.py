@@ -2,25 +2,66 @@
 """Joints from files: discrete fracture networks, and the tables of YADE's BlockGen."""
 import itertools
 import math
+import re
 
 import numpy as np
 
-from ..arguments import MANY, positive
+from ..arguments import MANY, is_number, positive
 from .joints import Joint, JointSet, joint, polygon
+
+
+# Names of columns, without blanks, signs and units, and what the number there is made into.
+COLUMNS = ("x", "y", "z", "dip", "dip direction", "radius")
+_SAME = 1.0, 0.0
+_NAMES = {
+    "x": ("x", _SAME), "easting": ("x", _SAME), "y": ("y", _SAME), "northing": ("y", _SAME), "z": ("z", _SAME),
+    "elevation": ("z", _SAME), "dip": ("dip", _SAME), "dipangle": ("dip", _SAME), "plunge": ("dip", (-1.0, 90.0)),
+    "dipdirection": ("dip direction", _SAME), "direction": ("dip direction", _SAME), "dipdir": ("dip direction", _SAME),
+    "strike": ("dip direction", (1.0, 90.0)), "trend": ("dip direction", (1.0, 180.0)), "radius": ("radius", _SAME),
+    "diameter": ("radius", (0.5, 0.0))
+}
 
 
 def read_dfn(file):
     """Joints as discs from a table of the columns x, y, z of the centre, dip, dip direction and radius; a list of
     Joint.
 
-    Separated by commas, semicolons or blanks, in degrees and the script's unit; a first line without any number is passed over
-    as names, and so are empty lines and those that begin with #. A radius of inf is a joint without end. ValueError
-    with file, line and value for what is no such table.
+    Separated by commas, semicolons or blanks, in degrees and the script's unit; empty lines and those that begin with #
+    are passed over. A first line without any number names the columns, in any order and among others: in the place of
+    the dip direction "strike" (by the right hand), of both angles "trend" and "plunge" of the pole, which points
+    downwards, of the radius "diameter". One that has none of these names is passed over. A radius of inf is a joint
+    without end. ValueError with file, line and value for what is no such table.
     """
-    found = []
-    for number, values in _rows(file, 6, "x, y, z, dip, dip direction, radius"):
+    named, found = _named_columns(file), []
+    columns, made = named or (range(6), 6 * [_SAME])
+    for number, values in _rows(file, columns, ", ".join(COLUMNS), exactly=not named, discs=True):
+        values = [factor * value + more for value, (factor, more) in zip(values, made)]
         found.append(_told(file, number, lambda: joint(values[:3], values[3], values[4], values[5])))
     return found
+
+
+def _named_columns(file):
+    """Where each of COLUMNS stands by the first line, and what is made of the number there; None without such names."""
+    with open(file, encoding="utf-8-sig") as lines:
+        filled = filter(None, (line.split("#")[0].strip() for line in _decoded(lines, file)))
+        first, second = next(filled, ""), next(filled, "")
+    words = _words(first)
+    if not second or any(map(is_number, words)):
+        return None
+    if len(words) > len(_words(second)):
+        # Names of two words, or with a unit, between blanks.
+        words = _words(re.sub(r"\s+(?=direction|angle|[(\[])", "_", first, flags=re.I))
+    found = {}
+    for column, word in enumerate(words):
+        meant, made = _NAMES.get(re.sub(r"[(\[].*|[^a-z]", "", word.lower()), ("", _SAME))
+        found.setdefault(meant, (column, made))
+    missing = [one for one in COLUMNS if one not in found]
+    if len(missing) == len(COLUMNS):
+        return None
+    if missing:
+        raise ValueError(f"{file}: the names {first[:80]!r} lack {', '.join(missing)}: name the columns "
+                         f"{', '.join(COLUMNS)}, or leave the names out")
+    return tuple(zip(*(found[one] for one in COLUMNS)))
 
 
 def read_blockgen(file, kind, size=None):
@@ -49,7 +90,7 @@ def rows_of_blockgen(file, kind, size=None):
             raise ValueError("size is missing: planes of a spacing are laid over a domain of that size (boundarySize)")
         size = positive(size, "size")
     found = []
-    for number, values in _rows(file, kinds[kind], "the columns of BlockGen", exactly=False):
+    for number, values in _rows(file, range(kinds[kind]), "the columns of BlockGen"):
         dip, direction = values[:2]
         # BlockGen takes dips above 90, as of planes that overhang.
         normal = _told(file, number, lambda: _blockgen_normal(dip, direction))
@@ -98,37 +139,44 @@ def _blockgen_normal(dip, direction):
     return -math.sin(dip) * math.cos(direction), -math.sin(dip) * math.sin(direction), math.cos(dip)
 
 
-def _rows(file, width, meaning, exactly=True):
-    """(line, numbers) of each row."""
-    found, names = [], False
+def _rows(file, columns, meaning, exactly=False, discs=False):
+    """(line, numbers) of each row: those in the columns, counted from 0; of discs, the last of which may be infinite,
+    no others, else the numbers after them, too.
+    """
+    found, names, width = [], False, max(columns) + 1
     with open(file, encoding="utf-8-sig") as lines:
         for number, line in enumerate(_decoded(lines, file), 1):
             line = line.split("#")[0].strip()
             if not line:
                 continue
-            # Blanks separate where nothing else does.
-            separator = ";" if ";" in line else "," if "," in line else None
-            words = [word.strip() for word in line.split(separator)]
+            words = _words(line)
             # BlockGen's lines end with a separator.
             while words and not words[-1]:
                 words.pop()
-            if not found and not names and not any(map(_is_number, words)):
+            if not found and not names and not any(map(is_number, words)):
                 names = True
                 continue
-            for column, word in enumerate(words[:width], 1):
+            for column in columns:
+                word = words[column] if column < len(words) else "0"
                 # A disc without end has a radius of inf, and nothing else is infinite.
-                if not _is_number(word) or not math.isfinite(float(word)) and not (exactly and column == width
-                                                                                   and float(word) == math.inf):
-                    raise ValueError(f"{file}, line {number}, column {column}: {word!r} is no finite number")
+                if not is_number(word) or not math.isfinite(float(word)) and not (
+                        discs and column == columns[-1] and float(word) == math.inf):
+                    raise ValueError(f"{file}, line {number}, column {column + 1}: {word!r} is no finite number")
             if len(words) < width or exactly and len(words) != width:
                 raise ValueError(f"{file}, line {number}: {len(words)} numbers, and {width} are needed: {meaning}")
-            further = [] if exactly else list(itertools.takewhile(_is_number, words[width:]))
+            further = [] if discs else list(itertools.takewhile(is_number, words[width:]))
             if not all(math.isfinite(float(word)) for word in further):
                 raise ValueError(f"{file}, line {number}: {', '.join(further)}: each must be finite")
-            found.append((number, [float(word) for word in words[:width] + further]))
+            found.append((number, [float(word) for word in [words[column] for column in columns] + further]))
     if not found:
         raise ValueError(f"{file}: there is no row of numbers: {meaning}")
     return found
+
+
+def _words(line):
+    """Blanks separate where nothing else does."""
+    separator = ";" if ";" in line else "," if "," in line else None
+    return [word.strip() for word in line.split(separator)]
 
 
 def _decoded(lines, file):
@@ -136,14 +184,6 @@ def _decoded(lines, file):
         yield from lines
     except UnicodeDecodeError as error:
         raise ValueError(f"{file} is no text in UTF-8: {error}") from None
-
-
-def _is_number(word):
-    try:
-        float(word)
-    except ValueError:
-        return False
-    return True
 
 
 def _told(file, line, make):

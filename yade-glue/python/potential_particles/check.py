@@ -2,13 +2,12 @@
 """What YADE does silently although it is wrong for potential particles, looked for in the scene as it stands."""
 import functools
 import math
-import warnings
 from typing import NamedTuple
 
 import numpy as np
 
 from . import time_step, tools, traps, unserved
-from .arguments import SceneWarning, is_friction_angle
+from .arguments import is_friction_angle, warn
 from .bodies import definition, is_free, volumes
 from .clumps import union
 from .measures import largest_overlap
@@ -112,8 +111,7 @@ class Watch:
         for one in found:
             if one.remedy not in self.told:
                 self.told.add(one.remedy)
-                # Without a place in a source file: the line is about the scene, and stays one line.
-                warnings.warn_explicit(f"potential_particles: {one}", SceneWarning, "potential_particles", 0)
+                warn(str(one))
 
 
 def _deep_overlaps(scene):

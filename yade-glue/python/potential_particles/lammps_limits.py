@@ -2,14 +2,12 @@
 """What LAMMPS cannot take of a scene: refused where bodies would move otherwise from the start, warned of where a
 script can act.
 """
-import warnings
-
-from .arguments import SceneWarning
+from . import arguments
 from .bodies import is_free, lasting
 
 
 def warn(text):
-    warnings.warn_explicit(f"potential_particles: to_lammps: {text}", SceneWarning, "potential_particles", 0)
+    arguments.warn(f"to_lammps: {text}")
 
 
 def require_motion(body, moves_freely):

@@ -48,6 +48,7 @@ from .measures import (body_stresses, coordination_number, extrema, fabric_tenso
                        solid_volume, stress)
 from .outside import protect_runs
 from .packing import pack
+from .polyhedra import replace_polyhedra
 from .saves import save
 from .simulated import factor_by_simulation
 from .specimen import grading_curve, sampled_porosity
@@ -61,7 +62,7 @@ __all__ = [
     "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
     "bond_contacts", "check", "clump", "conic_particle", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
     "factor_by_simulation", "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "plot_equilibrium",
-    "porosity", "prepare", "protect_runs", "sampled_porosity", "save", "save_mesh", "solid_volume", "start_from",
+    "porosity", "prepare", "protect_runs", "replace_polyhedra", "sampled_porosity", "save", "save_mesh", "solid_volume", "start_from",
     "stress", "time_stepper", "to_lammps", "use_joints"
 ]
 
@@ -268,5 +269,6 @@ def _load():
 
 _glue = _load()
 # After the classes that they serve.
-from .check import SceneWarning, check  # noqa: E402, F401
+from .arguments import SceneWarning  # noqa: E402, F401
+from .check import check  # noqa: E402, F401
 from .output import Mesh, Recorder, mesh, plot, plot_equilibrium, save_mesh  # noqa: E402, F401
