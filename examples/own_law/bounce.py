@@ -22,13 +22,15 @@ law = Law2_ScGeom_FrictPhys_Restitution(restitution=RESTITUTION)
 O.engines = [
     ForceResetter(),
     InsertionSortCollider([PotentialParticle2AABB(), Bo1_Wall_Aabb()], verletDist=0),
-    ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Wall_ConicPP_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()], [law]),
+    ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Wall_ConicPP_ScGeom()],
+                         [Ip2_FrictMat_FrictMat_FrictPhys()], [law]),
     NewtonIntegrator(damping=0, exactAsphericalRot=True),
 ]
 O.dt = 0.05 * potential_particles.critical_time_step()
 O.run(round(0.02 / O.dt), wait=True)
 found = O.bodies[ball].state.vel[2] / SPEED
-print(f"restitution of the ball {found:.4f}, of the law {law.restitution}; the rock moves on at {O.bodies[rock].state.vel[2]:.2f} m/s")
+print(f"restitution of the ball {found:.4f}, of the law {law.restitution}; "
+      f"the rock moves on at {O.bodies[rock].state.vel[2]:.2f} m/s")
 O.saveTmp()
 O.loadTmp()
 assert O.engines[2].lawDispatcher.functors[0].restitution == RESTITUTION

@@ -66,7 +66,8 @@ public:
     // Keywords in Python, and what is saved.
     template <class Visit> static void eachAttribute(Visit&& visit)
     {
-        visit("restitution", &Law2_ScGeom_FrictPhys_Restitution::restitution, "Speed after an impact over that before, (0, 1].");
+        visit("restitution", &Law2_ScGeom_FrictPhys_Restitution::restitution,
+              "Speed after an impact over that before, (0, 1].");
     }
 
 private:

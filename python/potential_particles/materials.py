@@ -80,7 +80,8 @@ def suggest(material="rock", size=None, r=None, fall=0.0, depth=0.0, load=0.0, o
     that should come to rest. ValueError that names the argument; at least one of fall, depth and load is above 0.
     """
     if material not in MATERIALS:
-        raise ValueError(f"material={material!r}: there are {', '.join(MATERIALS)}; give density= and friction= for others")
+        raise ValueError(f"material={material!r}: there are {', '.join(MATERIALS)}; "
+                         "give density= and friction= for others")
     if size is None:
         raise ValueError("size=None: give the diameter of the bodies, m")
     grains = MATERIALS[material]
@@ -91,7 +92,8 @@ def suggest(material="rock", size=None, r=None, fall=0.0, depth=0.0, load=0.0, o
     fall, depth, load = (within(value, 0.0, 1e50, name)
                          for value, name in ((fall, "fall"), (depth, "depth"), (load, "load")))
     if fall == depth == load == 0.0:
-        raise ValueError("fall=depth=load=0: give the height of the fall or of the pile, m, or the force on a contact, N")
+        raise ValueError("fall=depth=load=0: give the height of the fall or of the pile, m, "
+                         "or the force on a contact, N")
     delta = within(overlap, 1e-9, 1.0, "overlap") * r
     gravity = positive(number(gravity, "gravity"), "gravity")
     mass = density * math.pi / 6 * size**3

@@ -22,7 +22,8 @@ def movie(file, pictures, fps=12):
     """
     ending = os.path.splitext(os.fspath(file))[1].lower()
     if ending not in _OF_GIF + _OF_FFMPEG:
-        raise ValueError(f"{file}: a film is written as {', '.join(_OF_GIF + _OF_FFMPEG)}: give the file one of these endings")
+        raise ValueError(f"{file}: a film is written as {', '.join(_OF_GIF + _OF_FFMPEG)}: "
+                         "give the file one of these endings")
     fps = positive(fps, "fps")
     names = sorted(glob.glob(pictures)) if isinstance(pictures, str) else [os.fspath(one) for one in pictures]
     if not names:
@@ -34,11 +35,13 @@ def movie(file, pictures, fps=12):
             sizes.setdefault(opened.size, name)
     if len(sizes) > 1:
         (one, first), (other, second) = list(sizes.items())[:2]
-        raise ValueError(f"{first} has {one[0]} x {one[1]} pixels, {second} {other[0]} x {other[1]}: give pictures of one size")
+        raise ValueError(f"{first} has {one[0]} x {one[1]} pixels, {second} {other[0]} x {other[1]}: "
+                         "give pictures of one size")
     if ending in _OF_GIF:
         frames = [image.open(name).convert("RGB").quantize(256, dither=0) for name in names]
         with written(file) as out:
-            frames[0].save(out, format="GIF", save_all=True, append_images=frames[1:], duration=round(1000 / fps), loop=0)
+            frames[0].save(out, format="GIF", save_all=True, append_images=frames[1:], duration=round(1000 / fps),
+                           loop=0)
     else:
         _by_ffmpeg(file, ending, [os.path.abspath(name) for name in names], fps)
 

@@ -58,6 +58,12 @@ def example(name, script=None, **environment):
 
 
 # The longest first.
+@part("own_law", "tests/examples/own_law.sh", "examples/own_law/bounce.py")
+def own_law(outcome):
+    found = re.search(r"restitution of the ball ([\d.]+), of the law ([\d.]+)", outcome.said)
+    yield f"the speed of a ball after its impact: {found and found[0]}", abs(float(found[1]) - float(found[2])) < 2e-3
+
+
 @example("ballast", is_long=True, BODIES=25, CYCLES=2)
 def ballast(outcome):
     found = outcome.summary()
