@@ -6,14 +6,14 @@ use crate::pose::Pose;
 use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// Poses that are tried. At the densities at which most of them fail, ten times as many would place few bodies more.
-const TRIES: usize = 5_000;
-
-/// The first of many random poses at which the body fits.
-pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
+/// The first of so many random poses at which the body fits. inner: radius of the ball about its centre within it.
+pub(crate) fn find(pile: &Pile, particle: &Particle, inner: f64, trials: usize, random: &mut Random) -> Option<Pose> {
     let mut trial = Trial::new(pile, particle);
-    (0..TRIES).find_map(|_| {
-        let position = pile.container.point(random);
+    (0..trials).find_map(|_| {
+        let position = pile.container.point(random)?;
+        if pile.is_taken(&position, inner) {
+            return None;
+        }
         let pose = placed(position, &random.orientation())?;
         trial.fits(&pose).then_some(pose)
     })

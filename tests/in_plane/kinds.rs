@@ -2,7 +2,7 @@
 
 use crate::body::{Body, circle, rectangle};
 use nalgebra::{Matrix3, Vector3};
-use potential_particles::packing::{Arrangement, Container, PackError, Packing, Sizes, pack};
+use potential_particles::packing::{PackError, Sizes, Supply};
 use potential_particles::{
     Contact, ContactDerivatives, ContactWeights, DetectError, Formulation, InPlaneError, Kind, Particle, PatchScratch,
     PatchSettings, Plane, Pose, PoseRow, Section, Settings, ShapeGradient, SurfaceMesh, Triangle, Wall,
@@ -50,9 +50,7 @@ fn other_kinds_and_poses_that_leave_the_plane_are_refused() {
     let scratch = &mut PatchScratch::new();
     let patch = patch_of_contact(&disc, &home, &ball, &near, &contact, &PatchSettings::default(), scratch, |_| ());
     assert!(patch.unwrap_err().to_string().contains("make both by in_plane"));
-    let container = Container::cuboid([0.0; 3], [9.0; 3]).unwrap();
-    let how = Packing { arrangement: Arrangement::Settled, number: Some(2), margin: 0.0, seed: 1, threads: 1 };
-    let packed = pack(&container, &[ball, disc], &Sizes::as_given(), &how, |_| true);
+    let packed = Supply::new(&[ball, disc], &Sizes::as_given(), 0.0);
     assert!(matches!(packed, Err(PackError::InPlane(1))), "{packed:?}");
 }
 

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+//
+// What a packing of bodies asks a scene for.
+#pragma once
+
+#include "abi/shape.hpp"
+#include "registration/python_class.hpp"
+
+namespace potential_particles {
+
+// Ids of the bodies with a shape whose bound may reach into a box; those that have no bound yet among them.
+py::list bodiesNear(const yade::Vector3r& lower, const yade::Vector3r& upper);
+
+// (planes (a, b, c, d), r, k, R) of a shape that is a particle, local axes; None for others.
+py::object definitionOf(const yade::Shape& shape);
+
+} // namespace potential_particles
