@@ -106,12 +106,17 @@ progress.Bar.reached = lambda self, count: 1 / 0
 check.raises(ZeroDivisionError, lambda: quiet(box, rocks, number=5), "an error in between")
 progress.Bar.reached = original
 
+wrong = packing.Region((0, 0, 0), (9, 9, 9), lambda x, y, z: 1 / 0)
+check.raises(ZeroDivisionError, lambda: quiet(wrong, rocks, number=5), "an error in the function of a region")
+
 O.reset()
 for arguments, keywords, says in [
     ((box, []), dict(number=5), "shapes is empty"),
     ((box, [yade.Sphere(radius=1)]), dict(number=5), "not a Shape"),
     (((1, 2, 3), rocks), dict(number=5), "not a packing.Box"),
-    ((box, rocks), {}, "say how many"),
+    ((box, rocks), dict(number=5, trials=0), "trials=0"),
+    ((box, rocks), dict(number=5, obstacles=[(1, 2, 3)]), "obstacles"),
+    ((packing.Prism([(0, 0), (1, 0)], 0, 1), rocks), dict(number=5), "a prism of 2 corners"),
     ((box, rocks), dict(number=0), "number=0"),
     ((box, rocks), dict(number=5, seed=-1), "seed=-1"),
     ((box, rocks), dict(number=5, margin=-1), "margin=-1"),
