@@ -1,8 +1,8 @@
 //! Packings: bodies placed in a container without overlap, as a start for a simulation.
 //!
 //! A body is placed where [`crate::detect`] and its like find it separated from every body and [`Obstacle`] near by; a
-//! solve that fails counts as an overlap. [`Arrangement`] says where places are sought: anywhere in the container, or as low as they get. Each file
-//! uses only those above it:
+//! solve that fails counts as an overlap. [`Arrangement`] says where places are sought: anywhere in the container, or
+//! as low as they get. Each file uses only those above it:
 //!
 //! | file | holds |
 //! |---|---|

@@ -37,8 +37,8 @@ pub struct Packing {
     pub number: Option<usize>,
     /// The first body of the sequence that is to be placed, counted from 0.
     pub first: u64,
-    /// Random poses that are tried for a body, of which the first that fits is taken; settled ones do not ask. The share
-    /// that is filled, φ, nears that of saturation as φ∞ − φ ∝ trials^(−1/6) (six degrees of freedom).
+    /// Random poses that are tried for a body, of which the first that fits is taken; settled ones do not ask. The
+    /// share that is filled nears that of saturation by a small power of the trials.
     pub trials: usize,
     /// The same seed gives the same packing, whatever the number of threads.
     pub seed: u64,

@@ -89,8 +89,8 @@ impl Pile {
         self.top
     }
 
-    /// Whether a body with a ball of this radius about its centre, which is here, overlaps another however it is turned.
-    /// Not all such places are found: it is a test to come before others.
+    /// Whether a body with a ball of this radius about its centre, which is here, overlaps another however it is
+    /// turned. Not all such places are found: it is a test to come before others.
     pub fn is_taken(&self, centre: &Vector3<f64>, inner: f64) -> bool {
         self.grid.at(centre).iter().any(|&number| {
             let Placed { what, inner: other } = &self.placed[number as usize];
@@ -99,8 +99,8 @@ impl Pile {
         })
     }
 
-    /// The longest step of a body whose inner ball has this radius: where balls at both ends of it meet, and lie free of
-    /// a closed surface, they lie on one side of it.
+    /// The longest step of a body whose inner ball has this radius: where balls at both ends of it meet, and lie free
+    /// of a closed surface, they lie on one side of it.
     pub fn longest_step(&self, inner: f64) -> f64 {
         if self.thin { 1.999 * inner } else { f64::INFINITY }
     }

@@ -142,8 +142,8 @@ fn overlaps_with_obstacles_are_found() {
     assert_eq!(are_free(&[], &obstacles), [false; 0]);
 }
 
-/// Saturated random sequential addition of regular tetrahedra fills 0.356 (Kubala 2019). With few trials it is less, and
-/// the more the more trials there are.
+/// Saturated random sequential addition of regular tetrahedra fills 0.356 (Kubala 2019). With few trials it is less,
+/// and the more the more trials there are.
 #[test]
 fn tetrahedra_near_saturation_from_below() {
     let third = 1.0 / 3.0_f64.sqrt();

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Inlets: rate, no overlap at birth, until full, resumed after O.load with the same bodies; packings among what is there.
+# Inlets: rate, no overlap at birth, until full, resumed after O.load with the same bodies; packings among what is
+# there.
 import math
 import os
 import tempfile

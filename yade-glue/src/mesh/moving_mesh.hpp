@@ -2,9 +2,9 @@
 //
 // The engine that moves facets together as one rigid body: a lid, a plate, a wall that keeps a stress, a blade.
 //
-// It stands behind the contact loop and before NewtonIntegrator, which moves bodies whose degrees of freedom are blocked
-// by the velocity that they have: that velocity is what this engine sets. It integrates as NewtonIntegrator does
-// (leapfrog: velocities half a step after positions).
+// It stands behind the contact loop and before NewtonIntegrator, which moves bodies whose degrees of freedom are
+// blocked by the velocity that they have: that velocity is what this engine sets. It integrates as NewtonIntegrator
+// does (leapfrog: velocities half a step after positions).
 #pragma once
 
 #include "abi/archive.hpp"
