@@ -11,7 +11,6 @@ import dataclasses
 import json
 import math
 
-from . import _glue
 from ._core import _packing
 from .arguments import LARGE, MANY, positive, vector, whole
 from .bodies import body, material_of
@@ -107,6 +106,7 @@ class Inlet:
 
     def _place(self, due):
         import yade
+        from . import _glue
         lower, upper = map(yade.Vector3, self._space[1:3])
         there = obstacles_of(yade.O.bodies[i] for i in _glue.bodies_near(lower, upper))
         rows = []
