@@ -136,7 +136,14 @@ def add_packing(placements, material=None, **more):
 
 def _require_free(placements):
     import yade
-    there = obstacles_of(yade.O.bodies)
+    from . import _glue
+    if not placements:
+        return
+    at = [(one.pose.position, one.shape.bounding_radius * one.scale) for one in placements]
+    lower = [min(place[axis] - radius for place, radius in at) for axis in range(3)]
+    upper = [max(place[axis] + radius for place, radius in at) for axis in range(3)]
+    near = _glue.bodies_near(yade.Vector3(*lower), yade.Vector3(*upper), False)
+    there = obstacles_of(yade.O.bodies[i] for i in near)
     free = _packing.are_free([(one.particle, one.pose) for one in placements], there) if there else []
     if not all(free):
         raise ValueError(f"{free.count(False)} of {len(free)} bodies overlap what the scene has: "

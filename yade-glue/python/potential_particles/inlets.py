@@ -108,7 +108,7 @@ class Inlet:
         import yade
         from . import _glue
         lower, upper = map(yade.Vector3, self._space[1:3])
-        there = obstacles_of(yade.O.bodies[i] for i in _glue.bodies_near(lower, upper))
+        there = obstacles_of(yade.O.bodies[i] for i in _glue.bodies_near(lower, upper, True))
         rows = []
         _packing.pack(self._supply, *self._space, there, lambda new: rows.extend(new) or True, number=due,
                       first=self.born, **self._how)
