@@ -64,15 +64,15 @@ impl Container {
     /// # Errors
     /// Fewer than three corners, no area, edges without length, or heights that enclose nothing.
     pub fn prism(corners: &[[f64; 2]], low: f64, high: f64) -> Result<Self, PackError> {
-        let extreme =
-            |axis: usize, least: fn(f64, f64) -> f64, from| corners.iter().map(|corner| corner[axis]).fold(from, least);
-        let (inf, min, max): (_, fn(f64, f64) -> f64, fn(f64, f64) -> f64) = (f64::INFINITY, f64::min, f64::max);
         let has_length = |(i, corner): (usize, &[f64; 2])| *corner != corners[(i + 1) % corners.len()];
         if corners.len() < 3 || !(area(corners) > 0.0) || !corners.iter().enumerate().all(has_length) {
             return Err(PackError::Polygon(corners.len()));
         }
-        let lower = [extreme(0, min, inf), extreme(1, min, inf), low];
-        let around = Self::cuboid(lower, [extreme(0, max, -inf), extreme(1, max, -inf), high])?;
+        let extreme = |extreme: fn(f64, f64) -> f64, axis: usize| {
+            corners.iter().map(|corner| corner[axis]).fold(f64::NAN, extreme)
+        };
+        let lower = [extreme(f64::min, 0), extreme(f64::min, 1), low];
+        let around = Self::cuboid(lower, [extreme(f64::max, 0), extreme(f64::max, 1), high])?;
         Ok(Self { outline: Outline::Polygon(corners.into()), ..around })
     }
 

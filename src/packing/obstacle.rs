@@ -11,6 +11,7 @@ use crate::settings::Settings;
 use nalgebra::Vector3;
 
 /// What no body of a packing may overlap.
+#[allow(clippy::large_enum_variant)] // most are bodies, which are the largest
 #[derive(Clone, Debug)]
 pub enum Obstacle {
     /// A body that has its place.

@@ -94,7 +94,8 @@ fn bodies_stay_within_prisms_and_regions_of_points() {
         (1.0..=3.0).contains(&p.z) && p.x >= 0.0 && p.y >= 0.0 && p.x.max(p.y) <= 4.0 && p.x.min(p.y) <= 1.2
     };
     let in_ball = |p: &Vector3<f64>| p.norm() <= 2.0;
-    let regions: [(&Container, &dyn Fn(&Vector3<f64>) -> bool); 2] = [(&prism, &in_prism), (&ball, &in_ball)];
+    type Holds<'a> = &'a dyn Fn(&Vector3<f64>) -> bool;
+    let regions: [(&Container, Holds<'_>); 2] = [(&prism, &in_prism), (&ball, &in_ball)];
     for (region, holds) in regions {
         for how in [Packing { number: None, trials: 2_000, ..SCATTERED }, Packing { number: Some(25), ..SETTLED }] {
             let bodies = pack(region, &supply, &[], &how, |_| true).unwrap();
