@@ -3,7 +3,7 @@
 //! `stress`.
 
 use nalgebra::{Vector2, Vector3};
-use potential_particles::packing::{Arrangement, Container, PackError, Packing, Sizes, pack};
+use potential_particles::packing::{PackError, Sizes, Supply};
 use potential_particles::*;
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI, SQRT_2, TAU};
 
@@ -274,9 +274,7 @@ fn other_kinds_and_poses_that_leave_the_plane_are_refused() {
     let scratch = &mut PatchScratch::new();
     let patch = patch_of_contact(&disc, &home, &ball, &near, &contact, &PatchSettings::default(), scratch, |_| ());
     assert!(patch.unwrap_err().to_string().contains("make both by in_plane"));
-    let container = Container::cuboid([0.0; 3], [9.0; 3]).unwrap();
-    let how = Packing { arrangement: Arrangement::Settled, number: Some(2), margin: 0.0, seed: 1, threads: 1 };
-    let packed = pack(&container, &[ball, disc], &Sizes::as_given(), &how, |_| true);
+    let packed = Supply::new(&[ball, disc], &Sizes::as_given(), 0.0);
     assert!(matches!(packed, Err(PackError::InPlane(1))), "{packed:?}");
 }
 

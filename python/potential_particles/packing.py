@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Packings: many bodies without overlap in a box or a cylinder, as the start of a scene.
+"""Packings: many bodies without overlap in a region, among what is there, as the start of a scene.
 
     from potential_particles import packing, shapes
     rocks = [shapes.random_rock(seed) for seed in range(20)]
@@ -17,13 +17,13 @@ import typing
 
 import numpy as np
 
-from ._core import Pose, _packing
+from ._core import Particle, Pose, Triangle, Wall, _packing
 from .arguments import number as finite
 from .arguments import LARGE, MANY, positive, rows, vector, whole
 from .polyhedron import rotation
 from .progress import Bar, Interrupts
 
-__all__ = ["Box", "Cylinder", "Placement", "pack", "volume_between"]
+__all__ = ["Box", "Cylinder", "Placement", "Prism", "Region", "pack", "volume_between"]
 
 
 class Box(typing.NamedTuple):
@@ -39,6 +39,24 @@ class Cylinder(typing.NamedTuple):
     base: tuple
     radius: float
     height: float
+
+
+class Prism(typing.NamedTuple):
+    """An upright prism between two heights over a polygon: its corners (x, y) in order, convex or not."""
+
+    corners: tuple
+    low: float
+    high: float
+
+
+class Region(typing.NamedTuple):
+    """The points of a box between two corners of which inside(x, y, z) is true. A body is held if its centre and the
+    corners of the polyhedron about it are: that is all of it, where the region is convex.
+    """
+
+    lower: tuple
+    upper: tuple
+    inside: typing.Callable
 
 
 class Placement(typing.NamedTuple):
@@ -63,34 +81,35 @@ class Placement(typing.NamedTuple):
 
 
 def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None,
-         progress=True):
-    """Places bodies of random orientation in a container, none of which overlap; a list of Placement.
+         progress=True, trials=5_000, obstacles=()):
+    """Places bodies of random orientation in a container, which overlap neither each other nor obstacles; a list of
+    Placement.
 
-    container: a Box or a Cylinder. shapes: one Shape or several, each as likely as the others.
+    container: a Box, Cylinder, Prism or Region. shapes: one Shape or several, each as likely as the others.
     sizes: None for the shapes as they are; one size for all; or rows (size, share). A size is the diameter of a ball of
     the body's volume. shares says what a share is: "number" or "mass", of bodies of that size, with a sum of 1; or
     "passing", a grading
     curve: of the mass, in bodies below that size, growing from 0 to 1 and linear between rows.
-    dense: False scatters `number` bodies in the container, the largest first; True lays each as low as it gets, from
-    the bottom upwards, `number` of them or, with None, as many as fit.
-    margin: least distance between two bodies, length; that to the container is half of it.
+    dense: False scatters bodies in the container, of a `number` the largest first; True lays each as low as it gets,
+    from the bottom upwards. number: None for as many as fit.
+    margin: least distance between two bodies, length; that to the container and to obstacles is half of it.
+    trials: random poses tried for each scattered body; with more the container gets fuller.
+    obstacles: what is there: Placements, pairs (Particle, Pose), Triangles or their three corners, Walls; in YADE
+    bodies, as in obstacles=O.bodies.
     seed: the same one gives the same packing, whatever `threads` (by default the number of cores) is.
     progress: a bar if standard error is a terminal, else a line at the end.
 
     Fewer than `number` are returned, and reported, if no more fit; Ctrl-C ends the packing and keeps the placed bodies.
     ValueError for what cannot be packed.
     """
-    shapes = _shapes(shapes)
-    if shares not in ("number", "mass", "passing"):
-        raise ValueError(f"shares={shares!r} must be 'number', 'mass' or 'passing'")
-    if number is None and not dense:
-        raise ValueError("say how many: number=..., or dense=True for as many as fit")
+    shapes = shapes_of(shapes)
     wanted = None if number is None else whole(number, 1, 10 * MANY, "number")
-    space = _space(container)
+    space, there = space_of(container), obstacles_of(obstacles)
     how = {
-        "settled": bool(dense),
+        "arrangement": "settled" if dense else "scattered",
         "number": wanted,
-        "margin": finite(margin, "margin"),
+        "first": 0,
+        "trials": whole(trials, 1, LARGE, "trials"),
         "seed": whole(seed, 0, LARGE, "seed"),
         "threads": len(os.sched_getaffinity(0)) if threads is None else whole(threads, 1, 1024, "threads"),
     }
@@ -98,16 +117,15 @@ def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin
     placements = []
 
     def placed(new):
-        placements.extend(_placement(shapes[index], *where) for index, *where in new)
+        placements.extend(placement(shapes[index], *where) for index, *where in new)
         report.bar.reached(len(placements))
         return not interrupted
 
     with Interrupts() as interrupted:
         try:
-            particles = [shape.particle for shape in shapes]
-            _packing.pack(particles, *space, _size_rows(sizes), shares, placed, **how)
+            _packing.pack(supply_of(shapes, sizes, shares, margin), *space, there, placed, **how)
         finally:
-            report.close(len(placements), interrupted, volume_between(placements), _volume(*space))
+            report.close(len(placements), interrupted, volume_between(placements), _volume(*space), bool(there))
     return placements
 
 
@@ -116,7 +134,8 @@ def volume_between(placements, lower=-float("inf"), upper=float("inf")):
     return sum(one.shape.volume * one.scale**3 for one in placements if lower <= _centroid(one)[2] <= upper)
 
 
-def _shapes(shapes):
+def shapes_of(shapes):
+    """The Shapes that a script gave, one or several."""
     from .shape import Shape
     given = [shapes] if isinstance(shapes, Shape) else list(shapes)
     for one in given:
@@ -127,19 +146,52 @@ def _shapes(shapes):
     return given
 
 
-def _space(container):
-    """(kind, lower corner, upper corner)."""
-    if isinstance(container, Box):
-        return "box", tuple(vector(container.lower, "lower")), tuple(vector(container.upper, "upper"))
+def supply_of(shapes, sizes, shares, margin):
+    """The bodies that Shapes give in these sizes, as the library has them."""
+    if shares not in ("number", "mass", "passing"):
+        raise ValueError(f"shares={shares!r} must be 'number', 'mass' or 'passing'")
+    return _packing.Supply([shape.particle for shape in shapes], _size_rows(sizes), shares, finite(margin, "margin"))
+
+
+def obstacles_of(given):
+    """What the library takes as obstacles."""
+    found = []
+    for one in given:
+        if isinstance(one, Placement):
+            found.append((one.particle, one.pose))
+        elif isinstance(one, (Triangle, Wall)) or isinstance(one, tuple) and isinstance(one[0], (Particle, Wall)):
+            found.append(one)
+        elif hasattr(one, "state"):
+            from .scene_obstacles import of_body
+            found.extend(of_body(one))
+        else:
+            found.append(Triangle(*rows(one, 3, "obstacles", "the three coordinates of a corner of a triangle")))
+    return found
+
+
+def space_of(container):
+    """(kind, lower corner, upper corner, outline)."""
+    if isinstance(container, (Box, Region)):
+        kind, outline = ("box", None) if isinstance(container, Box) else ("points", container.inside)
+        return kind, tuple(vector(container.lower, "lower")), tuple(vector(container.upper, "upper")), outline
+    if isinstance(container, Prism):
+        corners = [tuple(map(float, corner)) for corner in rows(container.corners, 2, "corners", "the two numbers x, y")]
+        low, high = finite(container.low, "low"), finite(container.high, "high")
+        if not corners:
+            raise ValueError("corners is empty: give three or more")
+        return "prism", (*map(min, zip(*corners)), low), (*map(max, zip(*corners)), high), corners
     if isinstance(container, Cylinder):
         x, y, z = vector(container.base, "base")
         radius, height = positive(container.radius, "radius"), positive(container.height, "height")
-        return "cylinder", (x - radius, y - radius, z), (x + radius, y + radius, z + height)
-    raise ValueError(f"container is {type(container).__name__}, not a packing.Box or packing.Cylinder")
+        return "cylinder", (x - radius, y - radius, z), (x + radius, y + radius, z + height), None
+    raise ValueError(f"container is {type(container).__name__}, not a packing.Box, Cylinder, Prism or Region")
 
 
-def _volume(kind, lower, upper):
+def _volume(kind, lower, upper, outline):
     x, y, z = (high - low for low, high in zip(lower, upper))
+    if kind == "prism":
+        along, across = np.array(outline).T
+        return 0.5 * z * abs(along @ np.roll(across, -1) - across @ np.roll(along, -1))
     # pi/4 of the box about it.
     return x * y * z * (0.7853981633974483 if kind == "cylinder" else 1.0)
 
@@ -155,7 +207,7 @@ def _size_rows(sizes):
     return found
 
 
-def _placement(shape, scale, position, orientation):
+def placement(shape, scale, position, orientation):
     """In the frame in which the shape was built, from the pose of its centroid and principal axes."""
     w, x, y, z = shape.orientation
     to_frame = _product(orientation, (w, -x, -y, -z))
@@ -181,9 +233,9 @@ class _Report:
         self.wanted, self.shown, self.begin = wanted, shown, time.monotonic()
         self.bar = Bar(wanted, shown, "bodies", "packing")
 
-    def close(self, count, interrupted, solid, volume):
+    def close(self, count, interrupted, solid, volume, among):
         self.bar.close()
-        if self.shown and count:
+        if self.shown and (count or among):
             of, why = "", ""
             if self.wanted is not None and count < self.wanted:
                 of = f" of {self.wanted:,}"

@@ -96,6 +96,15 @@ impl Wall {
         Ok(Self { point: finite(point)?, normal, given })
     }
 
+    /// How far a point lies before it, along the normal.
+    pub(crate) fn height(&self, point: &Vector3<f64>) -> f64 {
+        self.normal.dot(&(point - self.point))
+    }
+
+    pub(crate) fn is_horizontal(&self) -> bool {
+        self.normal.x == 0.0 && self.normal.y == 0.0
+    }
+
     pub(super) fn part(&self) -> BoundaryPart {
         BoundaryPart::Plane { point: self.point, normal: self.normal, given: self.given }
     }

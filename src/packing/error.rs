@@ -33,8 +33,10 @@ pub enum PackError {
     GradingCurve { index: usize },
     #[error("margin={0:?} must be a distance: finite, and 0 or more")]
     Margin(f64),
-    #[error("a scattered packing needs a number of bodies (a settled one may do without: as many as fit)")]
-    NoNumber,
+    #[error("trials={0} must be 1 or more: as many random poses are tried for a body")]
+    Trials(usize),
+    #[error("a prism of {0} corners has no volume: give three or more in order around it, no two in a row alike")]
+    Polygon(usize),
     #[error(
         "number={number} bodies are more than the {most} that a packing may have: take fewer, larger bodies or a smaller container"
     )]

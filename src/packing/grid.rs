@@ -51,6 +51,12 @@ impl Grid {
         numbers.dedup();
     }
 
+    /// The numbers of the boxes that reach into the cell of a point.
+    pub fn at(&self, point: &Vector3<f64>) -> &[u32] {
+        let [x, y, z] = self.cells_of(point, point);
+        &self.cells[self.index(x.start, y.start, z.start)]
+    }
+
     /// The cells that a box reaches into; what lies outside the region counts for the cells at its border.
     fn cells_of(&self, lower: &Vector3<f64>, upper: &Vector3<f64>) -> [Range<usize>; 3] {
         [0, 1, 2].map(|axis| {

@@ -12,9 +12,10 @@ impl Limits {
     pub const BODIES: usize = 10_000_000;
     /// Bodies that look for their places at once.
     pub const AT_ONCE: f64 = 64.0;
-    /// Poses that are tried for a body. At the densities at which most of them fail, ten times as many would place few
-    /// bodies more.
-    pub const POSES: usize = 5_000;
+    /// Poses that are tried for a scattered body where the caller names no number.
+    pub const TRIALS: usize = 5_000;
+    /// Random points of the box about a region that are tried until one lies in it.
+    pub const POINTS: usize = 1_000;
     /// Poses above the pile that are tried for the start of a fall.
     pub const STARTS: usize = 30;
     /// Moves of a walk.
@@ -45,6 +46,8 @@ pub(super) const SHRINKAGE: f64 = 0.903_602; // 1.5^(-1/4)
 pub(super) const ADD_UP: f64 = 1e-6;
 
 // supply.rs
+/// Bodies of which the typical width is the mean.
+pub(super) const TYPICAL_OF: usize = 256;
 /// Least share by which a body is enlarged while it is packed: the finished bodies are as far apart, so that no other
 /// rounding of their planes makes them overlap.
 pub(super) const LEAST_ENLARGEMENT: f64 = 1e-6;

@@ -1,17 +1,19 @@
 //! A place anywhere in the container: random sequential addition.
 
-use super::numbers::Limits;
 use crate::packing::pile::{Pile, Trial};
 use crate::particle::particle::Particle;
 use crate::pose::Pose;
 use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
 
-/// The first of many random poses at which the body fits.
-pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
+/// The first of so many random poses at which the body fits. inner: radius of the ball about its centre within it.
+pub(crate) fn find(pile: &Pile, particle: &Particle, inner: f64, trials: usize, random: &mut Random) -> Option<Pose> {
     let mut trial = Trial::new(pile, particle);
-    (0..Limits::POSES).find_map(|_| {
-        let position = pile.container.point(random);
+    (0..trials).find_map(|_| {
+        let position = pile.container.point(random)?;
+        if pile.is_taken(&position, inner) {
+            return None;
+        }
         let pose = placed(position, &random.orientation())?;
         trial.fits(&pose).then_some(pose)
     })

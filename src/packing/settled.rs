@@ -3,7 +3,7 @@
 //! The walk minimises the height of the centre subject to "fits": a move is a step of random direction, never upwards,
 //! half of them with a turn. A move that fits is made. Steps grow with success and shrink with failure, such that one
 //! move in five is made (Rechenberg's rule), and the walk ends when they have become short. Whether two bodies pass
-//! through each other on the way does not matter, but for where they come to rest.
+//! through each other on the way does not matter, but for where they come to rest; meshes and walls are not passed.
 
 use super::numbers::{FALLS, FIRST_STEP, GROWTH, LAST_STEP, Limits, SHRINKAGE};
 use crate::packing::pile::{Pile, Trial};
@@ -14,12 +14,13 @@ use crate::random::Random;
 use nalgebra::{UnitQuaternion, Vector3};
 
 /// The lowest place that a few falls have found.
-pub(crate) fn find(pile: &Pile, particle: &Particle, random: &mut Random) -> Option<Pose> {
+pub(crate) fn find(pile: &Pile, particle: &Particle, inner: f64, random: &mut Random) -> Option<Pose> {
     let mut trial = Trial::new(pile, particle);
+    let longest = pile.longest_step(inner);
     let falls = (0..FALLS).filter_map(|_| {
         let start = start(pile, &mut trial, random)?;
-        let landed = fall(&mut trial, start);
-        Some(walk(&mut trial, landed, random))
+        let landed = fall(&mut trial, start, longest);
+        Some(walk(&mut trial, landed, longest, random))
     });
     falls.min_by(|a, b| a.height().total_cmp(&b.height())).and_then(|found| found.pose())
 }
@@ -53,7 +54,7 @@ impl Place {
 fn start(pile: &Pile, trial: &mut Trial, random: &mut Random) -> Option<Place> {
     let radius = trial.particle.bounding_radius();
     (0..Limits::STARTS).find_map(|_| {
-        let mut place = Place { position: pile.container.point(random), turn: random.orientation() };
+        let mut place = Place { position: pile.container.point(random)?, turn: random.orientation() };
         let (_, upper) = trial.particle.bounding_box(&place.pose()?);
         let highest = pile.container.upper().z - (upper.z - place.position.z);
         // Of the two roundings one would let the body reach out of the container.
@@ -63,13 +64,13 @@ fn start(pile: &Pile, trial: &mut Trial, random: &mut Random) -> Option<Place> {
 }
 
 /// Straight down in steps that double while they fit and else are quartered.
-fn fall(trial: &mut Trial, from: Place) -> Place {
+fn fall(trial: &mut Trial, from: Place, longest: f64) -> Place {
     let radius = trial.particle.bounding_radius();
-    let (mut place, mut step) = (from, radius);
-    while step > FIRST_STEP * radius / 4.0 {
+    let (mut place, mut step) = (from, radius.min(longest));
+    while step > (FIRST_STEP * radius).min(longest) / 4.0 {
         let below = place.moved(-step * Vector3::z());
         if below.fits(trial) {
-            (place, step) = (below, 2.0 * step);
+            (place, step) = (below, (2.0 * step).min(longest));
         } else {
             step /= 4.0;
         }
@@ -77,13 +78,13 @@ fn fall(trial: &mut Trial, from: Place) -> Place {
     place
 }
 
-fn walk(trial: &mut Trial, from: Place, random: &mut Random) -> Place {
+fn walk(trial: &mut Trial, from: Place, longest: f64, random: &mut Random) -> Place {
     let radius = trial.particle.bounding_radius();
     let (mut place, mut step) = (from, FIRST_STEP);
     for _ in 0..Limits::MOVES {
         let mut direction = random.direction();
         direction.z = -direction.z.abs();
-        let mut next = place.moved(step * radius * direction);
+        let mut next = place.moved((step * radius).min(longest) * direction);
         if random.uniform() < 0.5 {
             next.turn = UnitQuaternion::new(step * random.direction()) * next.turn;
         }

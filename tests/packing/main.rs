@@ -1,15 +1,27 @@
 //! `pack` against closed forms, against the cone programs, and against its own definition.
 
+mod among;
 mod rocks;
 
 use nalgebra::Vector3;
-use potential_particles::packing::{Arrangement, Container, Packing, Placement, Sizes, pack};
+use potential_particles::packing::{self, Arrangement, Container, PackError, Packing, Placement, Sizes, Supply};
 use potential_particles::{BackEnd, Kind, Particle, Settings, detect};
 use rocks::{rock, scattered};
 
 const SETTLED: Packing =
-    Packing { arrangement: Arrangement::Settled, number: Some(60), margin: 0.0, seed: 1, threads: 2 };
+    Packing { arrangement: Arrangement::Settled, number: Some(60), first: 0, trials: 5_000, seed: 1, threads: 2 };
 const SCATTERED: Packing = Packing { arrangement: Arrangement::Scattered, ..SETTLED };
+
+/// Among nothing, without a margin.
+fn pack(
+    container: &Container,
+    shapes: &[Particle],
+    sizes: &Sizes,
+    how: &Packing,
+    progress: impl FnMut(&[Placement]) -> bool,
+) -> Result<Vec<Placement>, PackError> {
+    packing::pack(container, &Supply::new(shapes, sizes, 0.0)?, &[], how, progress)
+}
 
 fn box_of(edge: f64, height: f64) -> Container {
     Container::cuboid([0.0; 3], [edge, edge, height]).unwrap()
@@ -90,8 +102,8 @@ fn balls_keep_the_margin() {
     let shapes = [Particle::sphere(0.5).unwrap()];
     let sizes = Sizes::by_number(&[[0.6, 0.5], [1.0, 0.5]]).unwrap();
     for (margin, how) in [(0.0, SETTLED), (0.05, SETTLED), (0.1, SCATTERED)] {
-        let how = Packing { margin, ..how };
-        let bodies = pack(&box_of(4.0, 8.0), &shapes, &sizes, &how, |_| true).unwrap();
+        let supply = Supply::new(&shapes, &sizes, margin).unwrap();
+        let bodies = packing::pack(&box_of(4.0, 8.0), &supply, &[], &how, |_| true).unwrap();
         assert_eq!(bodies.len(), 60);
         let mut least = f64::INFINITY;
         for (i, a) in bodies.iter().enumerate() {
@@ -176,9 +188,12 @@ fn what_cannot_be_packed_is_refused_with_a_sentence() {
     };
     let container = box_of(4.0, 4.0);
     assert!(fault(&container, &[], &SETTLED).contains("no shape"));
-    assert!(fault(&container, &shapes, &Packing { margin: -1.0, ..SETTLED }).contains("margin=-1.0"));
-    assert!(fault(&container, &shapes, &Packing { margin: f64::NAN, ..SETTLED }).contains("margin=NaN"));
-    assert!(fault(&container, &shapes, &Packing { number: None, ..SCATTERED }).contains("needs a number"));
+    let margin = |margin| Supply::new(&shapes, &sizes, margin).unwrap_err().to_string();
+    assert!(margin(-1.0).contains("margin=-1.0") && margin(f64::NAN).contains("margin=NaN"));
+    assert!(fault(&container, &shapes, &Packing { trials: 0, ..SCATTERED }).contains("trials=0 must be 1 or more"));
+    let prism = |corners: &[[f64; 2]]| Container::prism(corners, 0.0, 1.0).unwrap_err().to_string();
+    assert!(prism(&[[0.0, 0.0], [1.0, 0.0]]).contains("a prism of 2 corners has no volume"));
+    assert!(prism(&[[0.0, 0.0], [1.0, 1.0], [2.0, 2.0]]).contains("no volume"));
     for how in [SETTLED, SCATTERED] {
         assert!(
             fault(&box_of(0.2, 4.0), &shapes, &how).contains("no body fits: the container is [0.2, 0.2, 4.0] wide")

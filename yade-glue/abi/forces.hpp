@@ -14,6 +14,10 @@ public:
     ForceContainer(const ForceContainer&) = delete;
     void addForce(int id, const Vector3r& force);
     void addTorque(int id, const Vector3r& torque); // about the body's position
+    // Sums of what all threads have added, to be read after sync().
+    void sync();
+    const Vector3r& getForce(int id);
+    const Vector3r& getTorque(int id);
     int getNumAllocatedThreads() const;
 };
 

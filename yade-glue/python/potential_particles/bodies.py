@@ -6,7 +6,9 @@ import functools
 import inspect
 import math
 
+from ._core import _packing
 from .arguments import number, unit_quaternion, vector
+from .packing import obstacles_of
 
 # By definition (planes, r, k, R), of the shapes that have made particles: to measure a volume takes 10 ms.
 volumes = {}
@@ -27,8 +29,10 @@ def conic_particle(shape, **attributes):
     return made
 
 
-def guard_append(container):
-    """O.bodies.append of a shape names body(), where YADE lists the types of its arguments."""
+def guard(container):
+    """O.bodies.append of a shape names body(), where YADE lists the types of its arguments; O.bodies.clump of bodies
+    without mass, which ends YADE, names what moves them together.
+    """
     import yade
     from .shape import Shape
     append = container.append
@@ -41,7 +45,26 @@ def guard_append(container):
                             "make one by potential_particles.body(shape, position=...)")
         return append(self, *arguments, **keywords)
 
-    container.append = appended
+    clump, append_clumped = container.clump, container.appendClumped
+
+    @functools.wraps(clump)
+    def clumped(self, ids, *arguments, **keywords):
+        _require_mass([self[int(one)] for one in ids])
+        return clump(self, ids, *arguments, **keywords)
+
+    @functools.wraps(append_clumped)
+    def appended_clumped(self, bodies, *arguments, **keywords):
+        _require_mass(bodies)
+        return append_clumped(self, bodies, *arguments, **keywords)
+
+    container.append, container.clump, container.appendClumped = appended, clumped, appended_clumped
+
+
+def _require_mass(members):
+    if members and not any(one is not None and one.state.mass > 0.0 for one in members):
+        kinds = ", ".join(sorted({type(one.shape).__name__ for one in members if one is not None}))
+        raise ValueError(f"the members of the clump ({kinds}) have no mass, of which YADE makes no clump: facets move "
+                         "together by MovingMesh(ids=..., mass=..., free=\"z\")")
 
 
 def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 0.0, 0.0), fixed=False, color=None,
@@ -65,7 +88,7 @@ def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 
             raise ValueError(f"body has no keyword {name}" + (f": did you mean {near[0]}?" if near else ""))
     if not isinstance(shape, Shape):
         raise ValueError(f"shape is {type(shape).__name__}, not a Shape: make one by potential_particles.shapes")
-    material = _material(material)
+    material = material_of(material)
     to_frame, from_principal = _quaternion(orientation, "orientation"), _quaternion(shape.orientation,
                                                                                     "shape.orientation")
     place = yade.Vector3(*vector(position, "position")) + to_frame * yade.Vector3(*shape.centroid)
@@ -95,16 +118,36 @@ def body(shape, material=None, position=(0.0, 0.0, 0.0), orientation=(1.0, 0.0, 
 
 
 def add_packing(placements, material=None, **more):
-    """Appends the bodies of a packing to O.bodies; their ids. `more` goes to body() (fixed, color, mask, ...)."""
+    """Appends the bodies of a packing to O.bodies; their ids. `more` goes to body() (fixed, color, mask, ...).
+
+    ValueError where one overlaps what the scene has, which pack() leaves free by obstacles=O.bodies.
+    """
     import yade
     scaled = {}
-    made = []
+    made, placements = [], list(placements)
+    _require_free(placements)
     for placement in placements:
         key = id(placement.shape), placement.scale
         if key not in scaled:
             scaled[key] = placement.shape.scaled(placement.scale)
         made.append(body(scaled[key], material, placement.position, placement.orientation, **more))
     return yade.O.bodies.append(made)
+
+
+def _require_free(placements):
+    import yade
+    from . import _glue
+    if not placements:
+        return
+    at = [(one.pose.position, one.shape.bounding_radius * one.scale) for one in placements]
+    lower = [min(place[axis] - radius for place, radius in at) for axis in range(3)]
+    upper = [max(place[axis] + radius for place, radius in at) for axis in range(3)]
+    near = _glue.bodies_near(yade.Vector3(*lower), yade.Vector3(*upper), False)
+    there = obstacles_of(yade.O.bodies[i] for i in near)
+    free = _packing.are_free([(one.particle, one.pose) for one in placements], there) if there else []
+    if not all(free):
+        raise ValueError(f"{free.count(False)} of {len(free)} bodies overlap what the scene has: "
+                         "pack(..., obstacles=O.bodies) leaves that free")
 
 
 def is_free(body):
@@ -148,7 +191,8 @@ def into_cell(body):
     return yade.O.cell.wrap(place) - place
 
 
-def _material(material):
+def material_of(material):
+    """A Material, from itself, its number or label in O.materials, or None for the last one there."""
     import yade
     known = yade.O.materials
     if material is None:

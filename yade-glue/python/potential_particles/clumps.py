@@ -68,7 +68,8 @@ def union(members, lines=20_000, seed=0):
     for one in members:
         if one is None or not isinstance(one.shape, (yade.PotentialParticle, yade.Sphere)) or not one.state.mass > 0.0:
             raise ValueError(
-                f"body {None if one is None else one.id}: members are potential particles and spheres with a mass")
+                f"body {None if one is None else one.id}: members are potential particles and spheres with a "
+                "mass; facets move together by MovingMesh(ids=..., mass=..., free=\"z\")")
         if one.mat is None or one.mat.density != members[0].mat.density:
             raise ValueError(
                 "the members differ in density, and what the overlap weighs is not known: give them one density")

@@ -18,12 +18,13 @@ Then these classes stand beside YADE's own:
     ConicJointMat, Ip2_ConicJointMat_ConicJointMat_ConicJointPhys, Law2_ScGeomConicPP_ConicJointPhys
                                  joints: stiffness per area, friction against slip and twist, restitution, strength,
                                  bonds (bond_contacts); use_joints gives them to a scene with another law
+    MovingMesh                   facets that move together: lids, servo walls, blades
     BoundWatch, Bo1_ConicPP_Aabb, Bo1_PP_Aabb_Conic
                                  boxes for verletDist > 0
 
 potential_particles.shapes makes shapes from planes, points, files and names of solids, and body() a YADE body of one.
-pack() fills a container with many, add_packing() makes bodies of them; potential_particles.boundaries has walls and
-funnels.
+pack() fills a container with many, add_packing() makes bodies of them, an Inlet lets them come while the scene runs;
+potential_particles.boundaries has walls and funnels.
 
 Before they are registered, the classes of the YADE that runs are compared with what the plugin was compiled for. One
 that differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits and was
@@ -31,7 +32,7 @@ never tested is taken, with a warning of one line.
 
 Of YADE's own classes the import replaces five functions, which do as before: O.run and O.step look our functors up
 (prepare) and warn of what check() finds, for which Body.shape notices a change, O.load says what to do about a scene of
-another YADE, and O.bodies.append what to do with a shape. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by
+another YADE, and O.bodies.append and clump what to do with a shape and with facets. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by
 our functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
@@ -39,8 +40,9 @@ import functools
 import sys
 
 from . import __version__, _core, builds, window
-from .bodies import add_packing, body, conic_particle, guard_append
+from .bodies import add_packing, body, conic_particle, guard
 from .clumps import add_clump, clump
+from .inlets import Inlet
 from .joints import bond_contacts, use_joints
 from .lammps_files import to_lammps
 from .limit_analysis import limit_analysis
@@ -59,7 +61,7 @@ from .time_step import critical_time_step, time_stepper
 _PLUGIN = "0.2.0"
 
 __all__ = [
-    "AbiError", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
+    "AbiError", "Inlet", "Mesh", "Recorder", "SceneWarning", "add_clump", "add_packing", "body", "body_stresses",
     "bond_contacts", "check", "clump", "conic_particle", "coordination_number", "critical_time_step", "extrema", "fabric_tensor",
     "factor_by_simulation", "grading_curve", "library_version", "limit_analysis", "mesh", "overlap_ratio", "pack", "plot", "plot_equilibrium",
     "porosity", "prepare", "protect_runs", "replace_polyhedra", "sampled_porosity", "save", "save_mesh", "solid_volume", "start_from",
@@ -263,7 +265,7 @@ def _load():
     from . import outside, saves
     outside.guard_lists(yade, glue.set_list)
     saves.guard(yade, glue.archive_version, running)
-    guard_append(yade.wrapper.BodyContainer)
+    guard(yade.wrapper.BodyContainer)
     return glue
 
 

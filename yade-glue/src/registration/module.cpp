@@ -10,6 +10,7 @@
 #include "joint/conic_joint.hpp"
 #include "joint/joints_in_step.hpp"
 #include "joint/patch_surface.hpp"
+#include "mesh/obstacles.hpp"
 #include "particle/particle_store.hpp"
 #include "python_bytes.hpp"
 #include "shape/conic_potential_particle.hpp"
@@ -108,5 +109,7 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("take_joints", &takeJoints);
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("patch_surface", &pp::patchSurface);
+    py::def("bodies_near", &pp::bodiesNear);
+    py::def("definition_of", &pp::definitionOf);
     py::def("window_dispatcher", &pp::windowDispatcher);
 }
