@@ -24,6 +24,10 @@ VOLUME, INERTIA = 0.4038225591237064, Vector3(0.04517679396290749, 0.04517679396
 STRENGTH = dict(cohesion=1e6, tensileStrength=2e6, residualFrictionAngle=0.25, residualCohesion=1e3, softening=1e-3)
 PATCH = dict(patch=True, patchTolerance=1e-5)
 GAPS = dict(interactionDistance=1e-3, rotations=True)
+# So strong that nothing breaks.
+BREAKAGE = dict(iterPeriod=2, tensileStrength=1e30, compressiveStrength=2e30, weibullModulus=3.0, referenceVolume=0.5,
+                seed=7, pieces=4, leastSize=0.01, rounding=0.125, surfaceEnergy=2.0, joints=[1.0, 0.0, 0.0],
+                function="module.of_script", records=[1.0, 9.0, 10.0, 2.0, 4.0, -8.0, 0.5, 1.0, 0.25], label="breakage")
 OTHERS = list(unserved.REMEDIES)
 
 
@@ -50,6 +54,7 @@ def scene():
             loop.lawDispatcher.functors + [yade.Law2_ScGeomConicPP_ConicJointPhys(neverErase=True, label="jointLaw")],
             label="loop"),
         integrator,
+        yade.Breakage(**BREAKAGE),
     ]
     for tag in ("author", "isoTime", "id", "d.id", "id.d"):
         O.tags[tag] = "test"

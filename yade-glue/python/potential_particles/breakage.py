@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How the engine Breakage cuts a body: into pieces that have its mass, momentum and moment of momentum."""
+import dataclasses
 import importlib
 import math
 import warnings
@@ -64,35 +65,40 @@ def _broken(engine, body, joints, principal):
     from .bodies import body as made_of
     sharp = sharp_planes(body.shape)
     try:
+        # A round body, such as an ellipsoid, is made of planes that are no faces.
+        if not all(d > 0.0 for _, _, _, d in body.shape.planes):
+            raise ValueError("it is round")
         mass = sliced(Domain(sharp), joints, least_width=engine.leastSize, threads=1, progress=False)
     except ValueError as error:
-        warnings.warn(f"potential_particles: Breakage leaves body {body.id} whole: its faces enclose no body ({error})",
+        warnings.warn(f"potential_particles: Breakage leaves body {body.id} whole, as it has no faces that enclose it: {error}",
                       SceneWarning)
         return False
     if len(mass) < 2:
         return False
-    state, scene = body.state, yade.O
-    density = state.mass / mass.volume
+    state, scene, number = body.state, yade.O, body.id
+    # Sharp pieces fill the sharp body: what roundings took of its mass is made up for.
+    made_up = state.mass / (mass.volume * body.material.density)
     made = []
     for block in (mass[one] for one in range(len(mass))):
         own = mass.faces[block.faces]
         others = np.delete(sharp, own["index"][own["of"] == OF_DOMAIN].astype(int), 0)
         shape, orientation = _shape(block, others, body.shape.r, engine.rounding)
+        shape = dataclasses.replace(shape, volume=shape.volume * made_up, inertia=tuple(made_up * one for one in shape.inertia))
         piece = made_of(shape, body.material, state.pos + state.ori * yade.Vector3(*block.centroid),
                         state.ori * _quaternion(orientation), color=body.shape.color, mask=body.mask,
                         wire=body.shape.wire, highlight=body.shape.highlight)
-        piece.state.mass = block.volume * density
-        piece.state.inertia = yade.Vector3(*(density * one for one in shape.inertia))
         piece.state.blockedDOFs, piece.state.isDamped = state.blockedDOFs, state.isDamped
         made.append(piece)
     share_motion(body, [piece.state for piece in made])
     lost = _lost(body)
     for contact in body.intrs():
         scene.interactions.erase(contact.id1, contact.id2)
-    scene.bodies.erase(body.id)
+    scene.bodies.erase(number)
     first = scene.bodies.append(made)[0]
+    # The forces of this step, of which YADE says nothing for as long as there are new bodies.
+    scene.forces.f(first, True)
     area = float(mass.partners["area"].sum())
-    engine.records += [scene.iter, body.id, first, len(made), principal[2], principal[0], area,
+    engine.records += [scene.iter, number, first, len(made), principal[2], principal[0], area,
                        area * engine.surfaceEnergy, lost]
     return True
 

@@ -174,7 +174,8 @@ void Breakage::pySetAttr(const std::string& key, const py::object& value)
         yade::GlobalEngine::pySetAttr(key, value);
         return;
     }
-    whole.clear();
+    if (key != "records")
+        whole.clear();
     const auto back = [&](const std::string& why) {
         setAttribute(*this, key, before[key]);
         refuse(why);

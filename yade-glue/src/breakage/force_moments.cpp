@@ -40,39 +40,51 @@ namespace {
         return (clump ? *clump : body).state->se3.position;
     }
 
+    // The parts of a contact, if it is one that pushes or pulls.
+    struct Reader {
+        Cast<yade::ScGeom> geometryOf;
+        Cast<yade::NormShearPhys> physicsOf;
+        Cast<ConicJointPhys> jointOf;
+        const yade::ScGeom* geometry = nullptr;
+        const yade::NormShearPhys* physics = nullptr;
+
+        bool read(const yade::Interaction& pair)
+        {
+            if (!pair.hasGeomAndPhys())
+                return false;
+            geometry = geometryOf(*pair.geom);
+            physics = physicsOf(*pair.phys);
+            if (!geometry || !physics)
+                return false;
+            const ConicJointPhys* const joint = geometry->penetrationDepth > 0 ? nullptr : jointOf(*pair.phys);
+            return geometry->penetrationDepth > 0 || (joint && joint->bonded);
+        }
+    };
+
 } // namespace
 
 void sumForceMoments(const yade::Scene& scene, std::vector<Tensor>& sums)
 {
     const auto& bodies = scene.bodies->body;
-    const auto& pairs = scene.interactions->linIntrs;
     sums.assign(bodies.size(), Tensor::Zero());
-    Cast<yade::ScGeom> geometryOf;
-    Cast<yade::NormShearPhys> physicsOf;
-    Cast<ConicJointPhys> jointOf;
-    for (std::size_t i = 0; i < scene.interactions->currSize; ++i) {
-        const yade::Interaction& pair = *pairs[i];
-        if (!pair.hasGeomAndPhys())
+    Reader contact;
+    for (std::size_t id = 0; id < bodies.size(); ++id) {
+        if (!bodies[id])
             continue;
-        const yade::ScGeom* const geometry = geometryOf(*pair.geom);
-        const yade::NormShearPhys* const physics = physicsOf(*pair.phys);
-        if (!geometry || !physics)
-            continue;
-        if (!(geometry->penetrationDepth > 0)) {
-            const ConicJointPhys* const joint = jointOf(*pair.phys);
-            if (!joint || !joint->bonded)
+        const Vector3r& centre = centreOf(bodies, *bodies[id]);
+        // In the order of ids: the container of all interactions has another one after a scene was loaded.
+        for (const auto& [other, pair] : bodies[id]->intrs) {
+            // YADE keeps the pairs of an erased body until the next step.
+            const auto place = static_cast<std::size_t>(other);
+            if (place >= bodies.size() || !bodies[place] || !contact.read(*pair))
                 continue;
+            const Vector3r force = contact.physics->normalForce + contact.physics->shearForce;
+            const bool isFirst = pair->id1 == static_cast<int>(id);
+            Vector3r arm = contact.geometry->contactPoint - centre;
+            if (scene.isPeriodic && !isFirst)
+                arm -= scene.cell->hSize * pair->cellDist.cast<double>();
+            sums[id] += (isFirst ? Vector3r(-force) : force) * arm.transpose();
         }
-        const auto id1 = static_cast<std::size_t>(pair.id1), id2 = static_cast<std::size_t>(pair.id2);
-        // YADE keeps the pairs of an erased body until the next step.
-        if (id1 >= bodies.size() || id2 >= bodies.size() || !bodies[id1] || !bodies[id2])
-            continue;
-        const Vector3r force = physics->normalForce + physics->shearForce;
-        Vector3r other = centreOf(bodies, *bodies[id2]);
-        if (scene.isPeriodic)
-            other += scene.cell->hSize * pair.cellDist.cast<double>();
-        sums[id1] -= force * (geometry->contactPoint - centreOf(bodies, *bodies[id1])).transpose();
-        sums[id2] += force * (geometry->contactPoint - other).transpose();
     }
 }
 

@@ -13,7 +13,7 @@ using Tensor = Eigen::Matrix3d;
 
 // Of each body the sum over its contacts of f (x_c - x)^T, N m, into `sums` by id: f the force on it at the contact
 // point x_c, x its centre of mass, of a member of a clump the clump's. Over the volume that is its mean stress, tension
-// positive. Contacts count that overlap or are bonded. In one pass over the interactions.
+// positive. Contacts count that overlap or are bonded; they are added up in the order of ids.
 void sumForceMoments(const yade::Scene& scene, std::vector<Tensor>& sums);
 
 // The volume of a body by its mass; 0 where that is not known.
