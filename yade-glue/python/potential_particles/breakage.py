@@ -70,8 +70,8 @@ def _broken(engine, body, joints, principal):
             raise ValueError("it is round")
         mass = sliced(Domain(sharp), joints, least_width=engine.leastSize, threads=1, progress=False)
     except ValueError as error:
-        warnings.warn(f"potential_particles: Breakage leaves body {body.id} whole, as it has no faces that enclose it: {error}",
-                      SceneWarning)
+        warnings.warn(f"potential_particles: Breakage leaves body {body.id} whole, as it has no faces that enclose it: "
+                      f"{error}", SceneWarning)
         return False
     if len(mass) < 2:
         return False
@@ -83,7 +83,8 @@ def _broken(engine, body, joints, principal):
         own = mass.faces[block.faces]
         others = np.delete(sharp, own["index"][own["of"] == OF_DOMAIN].astype(int), 0)
         shape, orientation = _shape(block, others, body.shape.r, engine.rounding)
-        shape = dataclasses.replace(shape, volume=shape.volume * made_up, inertia=tuple(made_up * one for one in shape.inertia))
+        shape = dataclasses.replace(shape, volume=shape.volume * made_up,
+                                    inertia=tuple(made_up * one for one in shape.inertia))
         piece = made_of(shape, body.material, state.pos + state.ori * yade.Vector3(*block.centroid),
                         state.ori * _quaternion(orientation), color=body.shape.color, mask=body.mask,
                         wire=body.shape.wire, highlight=body.shape.highlight)

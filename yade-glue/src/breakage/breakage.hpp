@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 //
-// The engine that breaks bodies by the stress in them: which ones, here; how they are cut, in the package's breakage.py.
+// The engine that breaks bodies by the stress in them: which ones, here; how they are cut, in breakage.py of the
+// package.
 #pragma once
 
 #include "abi/archive.hpp"

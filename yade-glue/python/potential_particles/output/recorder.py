@@ -11,10 +11,10 @@ from . import chains, vtk_files
 from .drawn import ShapeMeshes, Triangles, drawn
 from .patches import Patches, patches
 
-_BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "velocity": 3, "angular_velocity": 3}
+_BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "generation": 1, "velocity": 3, "angular_velocity": 3}
 _CONTACT = {"point": 3, "normal": 3, "overlap": 1, "normal_force": 3, "shear_force": 3, "id1": 1, "id2": 1,
             "begin": 3, "end": 3}
-_WHOLE = {"id", "material", "mask", "rank", "id1", "id2"}
+_WHOLE = {"id", "material", "mask", "rank", "generation", "id1", "id2"}
 
 
 class Recorder:
@@ -26,7 +26,8 @@ class Recorder:
     name: path without an ending; its folder is made. Each frame is <name>.bodies.<step>.vtp and
     <name>.contacts.<step>.vtp, and the series <name>.bodies.pvd and <name>.contacts.pvd, which ParaView opens, grow
     with it. Each file appears under its name when it is whole, so that a run may be interrupted at any time. Bodies are
-    triangles, with id, material (its id, or -1), mask, rank, velocity and angular_velocity (world axes) of their body.
+    triangles, with id, material (its id, or -1), mask, rank, generation (how often what it was part of has broken),
+    velocity and angular_velocity (world axes) of their body.
     Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and
     shear_force (world axes, on body id2), id1 and id2; forces are 0 for physics without them. With patch=True the point
     is the centre of pressure. <name>.chains.<step>.vtp has the same contacts as lines between the centres of their
@@ -51,7 +52,8 @@ class Recorder:
             chosen = set(self.ids)
             bodies = [body for body in bodies if body.id in chosen]
         wanted = _with_patches()
-        parts = gather((Triangles.together(drawn(bodies, self.meshes)), _rows(bodies, rank, _body, _BODY),
+        parts = gather((Triangles.together(drawn(bodies, self.meshes)),
+                        _rows(bodies, (rank, _generations()), _body, _BODY),
                         _rows(contacts, rank, _contact, _CONTACT), patches(contacts if wanted else [])))
         if rank:
             return
@@ -123,9 +125,19 @@ def _with_patches():
                for functor in engine.geomDispatcher.functors)
 
 
-def _body(body, rank):
+def _generations():
+    """Of all engines Breakage; of bodies that are no pieces nothing."""
+    found = {}
+    for engine in yade.O.engines:
+        if isinstance(engine, yade.Breakage):
+            found.update(engine.generations)
+    return found
+
+
+def _body(body, where):
+    rank, generations = where
     material = body.material.id if body.material is not None else -1
-    return (body.id, material, body.mask, rank, *body.state.vel, *body.state.angVel)
+    return (body.id, material, body.mask, rank, generations.get(body.id, 0), *body.state.vel, *body.state.angVel)
 
 
 def _contact(contact, rank):
