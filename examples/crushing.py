@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Rocks that a lid crushes in a box: grading before and after. scripts/yade.sh -j2 examples/crushing.py
 
-Environment: BODIES (300), STRESS (5e5), OUTPUT (out/crushing). Writes crushed.png and summary.json. SI units; z up.
+Environment: BODIES (300), STRESS (1e5), OUTPUT (out/crushing). Writes crushed.png and summary.json. SI units; z up.
 """
 import os
 
@@ -11,15 +11,15 @@ from potential_particles import files, packing, shapes
 from yade import *
 from yade import utils
 
-COUNT, STRESS, OUT = [os.environ.get(*one) for one in (("BODIES", 300), ("STRESS", 5e5), ("OUTPUT", "out/crushing"))]
+COUNT, STRESS, OUT = [os.environ.get(*one) for one in (("BODIES", 300), ("STRESS", 1e5), ("OUTPUT", "out/crushing"))]
 SIDE, rocks = 0.1 * (0.8 * int(COUNT)) ** (1 / 3), [shapes.random_rock(seed, size=0.08) for seed in range(12)]
-O.materials.append(FrictMat(young=2e8, poisson=0.3, frictionAngle=0.5, density=2650))
+O.materials.append(FrictMat(young=1e8, poisson=0.3, frictionAngle=0.5, density=2650))
 placed = potential_particles.pack(packing.Box((0, 0, 0), (SIDE, SIDE, 2 * SIDE)), rocks, number=int(COUNT))
 potential_particles.add_packing(placed, color=(0.7, 0.7, 0.65))
 walls = [utils.wall(height * SIDE, axis=axis) for axis, height in ((0, 0), (0, 1), (1, 0), (1, 1), (2, 0), (2, 2))]
 lid = O.bodies[O.bodies.append(walls)[-1]]
-engine = Breakage(tensileStrength=5e4, compressiveStrength=5e5, weibullModulus=4, referenceVolume=2.6e-4, seed=1,
-                  pieces=4, leastSize=0.025)
+engine = Breakage(tensileStrength=1e4, compressiveStrength=1e5, weibullModulus=4, referenceVolume=2.6e-4, seed=1,
+                  pieces=4, leastSize=0.03)
 O.engines = [
     ForceResetter(), BoundWatch(), InsertionSortCollider([Bo1_ConicPP_Aabb(), Bo1_Wall_Aabb()], verletDist=0.004),
     ConicInteractionLoop([Ig2_ConicPP_ConicPP_ScGeom(), Ig2_Wall_ConicPP_ScGeom()], [Ip2_FrictMat_FrictMat_FrictPhys()],
@@ -28,7 +28,7 @@ O.engines = [
     NewtonIntegrator(damping=0.4, gravity=(0, 0, -9.81), exactAsphericalRot=True), engine]
 gradings, masses = {}, []
 for label, stress in (("before", 50), ("after", float(STRESS))):
-    lid.state.vel[2] = -1
+    lid.state.vel[2] = -2
     while O.forces.f(lid.id)[2] < stress * SIDE**2:
         O.run(20, True)
     gradings[label], masses = potential_particles.grading_curve(), masses + [sum(one.state.mass for one in O.bodies)]

@@ -95,12 +95,13 @@ def _broken(engine, body, joints, principal):
     for contact in body.intrs():
         scene.interactions.erase(contact.id1, contact.id2)
     scene.bodies.erase(number)
-    first = scene.bodies.append(made)[0]
+    # One by one: of a list YADE keeps the bodies for ever.
+    first = [scene.bodies.append(piece) for piece in made][0]
     # The forces of this step, of which YADE says nothing for as long as there are new bodies.
     scene.forces.f(first, True)
     area = float(mass.partners["area"].sum())
-    engine.records += [scene.iter, number, first, len(made), principal[2], principal[0], area,
-                       area * engine.surfaceEnergy, lost]
+    engine.addRecord((scene.iter, number, first, len(made), principal[2], principal[0], area,
+                      area * engine.surfaceEnergy, lost))
     return True
 
 
@@ -170,7 +171,8 @@ def _lost(body):
 
 def history(engine):
     """HISTORY of an engine."""
-    return np.array([tuple(row) for row in np.reshape(engine.records, (-1, len(HISTORY)))], HISTORY)
+    rows_of = np.frombuffer(engine.recordBytes()).reshape(-1, len(HISTORY))
+    return np.array([tuple(row) for row in rows_of], HISTORY)
 
 
 def parents(engine):

@@ -11,6 +11,7 @@
 #include <boost/python/stl_iterator.hpp>
 
 #include <cmath>
+#include <functional>
 #include <typeinfo>
 
 namespace potential_particles {
@@ -56,7 +57,8 @@ namespace {
         PyObject *kind = nullptr, *value = nullptr, *trace = nullptr;
         PyErr_Fetch(&kind, &value, &trace);
         PyErr_NormalizeException(&kind, &value, &trace);
-        const py::handle<> itsKind(py::allow_null(kind)), itsValue(py::allow_null(value)), itsTrace(py::allow_null(trace));
+        const py::handle<> itsKind(py::allow_null(kind)), itsValue(py::allow_null(value));
+        const py::handle<> itsTrace(py::allow_null(trace));
         const py::handle<> name(py::allow_null(PyObject_GetAttrString(itsKind.get(), "__name__")));
         const py::handle<> words(py::allow_null(PyObject_Str(itsValue.get())));
         PyErr_Clear();
@@ -96,7 +98,8 @@ void Breakage::action()
 void Breakage::requireUsable() const
 {
     if (!(leastSize > 0))
-        refuse("leastSize=" + text(leastSize) + " must be above 0: give the diameter of the largest ball in the smallest piece");
+        refuse("leastSize=" + text(leastSize)
+               + " must be above 0: give the diameter of the largest ball in the smallest piece");
     if (tensileStrength == 0 && compressiveStrength == 0 && function.empty())
         refuse("tensileStrength=0 and compressiveStrength=0, and no function: nothing breaks; give one of them");
     if (weibullModulus > 0 && !(referenceVolume > 0))
@@ -130,7 +133,8 @@ bool Breakage::reachesStrength(const Tensor& stress, std::size_t id, double volu
     const double factor = strengthFactor(id, volume);
     if (!(bound >= factor))
         return false;
-    const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Tensor>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+    const Eigen::SelfAdjointEigenSolver<Tensor> solver(stress, Eigen::EigenvaluesOnly);
+    const Eigen::Vector3d principal = solver.eigenvalues();
     return principal[2] * perTension - principal[0] * perPressure >= factor;
 }
 
@@ -168,16 +172,19 @@ void Breakage::cut()
 
 void Breakage::pySetAttr(const std::string& key, const py::object& value)
 {
-    const py::dict before = dictOfAttributes(*this);
+    std::function<void()> restore;
+    eachAttribute([&](const char* name, auto member, const char*) {
+        if (key == name)
+            restore = [this, member, old = this->*member] { this->*member = old; };
+    });
     const py::object given = key == "joints" || key == "function" ? package().attr(key.c_str())(value) : value;
     if (!setAttribute(*this, key, given)) {
         yade::GlobalEngine::pySetAttr(key, value);
         return;
     }
-    if (key != "records")
-        whole.clear();
+    whole.clear();
     const auto back = [&](const std::string& why) {
-        setAttribute(*this, key, before[key]);
+        restore();
         refuse(why);
     };
     for (const auto& [name, one] :
@@ -226,6 +233,16 @@ void Breakage::pyRegisterClass(py::object scope)
     fromPackage("history", "Structured array, one row for each body that broke: potential_particles.breakage.HISTORY.");
     fromPackage("parents", "{id of a piece: id of the body that broke}.");
     fromPackage("generations", "{id of a piece: how often what it was part of has broken}; others have none.");
+    // YADE keeps each list that it makes of a vector: pieces are many, and go in and out as numbers.
+    registered.def("addRecord", pythonFunction<void, Breakage&, const py::object&>(
+                                    [](Breakage& engine, const py::object& row) {
+                                        engine.records.insert(engine.records.end(), py::stl_input_iterator<double>(row),
+                                                              py::stl_input_iterator<double>());
+                                    }),
+                   "Adds a row of `history`.");
+    const auto recordBytes = [](const Breakage& engine) { return bytes(engine.records); };
+    registered.def("recordBytes", pythonFunction<py::object, const Breakage&>(recordBytes),
+                   "The records as bytes, for numpy.");
     registered.def("strengthFactor", &Breakage::pyStrengthFactor, py::arg("id"),
                    "By what the strengths are multiplied for this body: size and scatter.");
 }

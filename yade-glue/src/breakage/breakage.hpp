@@ -49,24 +49,26 @@ public:
               "Uniaxial compression at which it breaks, Pa; 0: none. With both strengths it breaks by Mohr-Coulomb, "
               "where s1/tensileStrength - s3/compressiveStrength reaches 1 (s1 > s3, tension positive).");
         visit("weibullModulus", &B::weibullModulus,
-              "m of Weibull: a body of volume V has (referenceVolume/V)^(1/m) times these strengths; 0: all have the same.");
+              "m of Weibull: a body of volume V has (referenceVolume/V)^(1/m) times these strengths; 0: all have the "
+              "same.");
         visit("referenceVolume", &B::referenceVolume, "Volume to which the strengths belong, length^3.");
         visit("seed", &B::seed,
-              "0 or above: strengths scatter by Weibull's distribution, drawn from seed and id of a body; a body of the "
-              "reference volume has survived tensileStrength with probability exp(-1). -1: no scatter.");
+              "0 or above: strengths scatter by Weibull's distribution, drawn from seed and id of a body; a body of "
+              "the reference volume has survived tensileStrength with probability exp(-1). -1: no scatter.");
         visit("pieces", &B::pieces, "2, 4 or 8: cuts across the largest, the middle and the least principal stress.");
         visit("leastSize", &B::leastSize,
-              "Diameter of the largest ball in the smallest piece, length: a cut that would make a smaller one is left out.");
+              "Diameter of the largest ball in the smallest piece, length: a cut that would make a smaller one is left "
+              "out.");
         visit("rounding", &B::rounding,
               "Pieces have the rounding radius of the body that broke, but at most this share of their own size.");
         visit("surfaceEnergy", &B::surfaceEnergy, "Energy of a cut per area, J/m^2, for `history`.");
         visit("joints", &B::joints,
-              "Normals of planes in the axes of a body: it breaks along these, through its centroid. Three numbers each, "
-              "or rows of three.");
+              "Normals of planes in the axes of a body: it breaks along these, through its centroid. Three numbers "
+              "each, or rows of three.");
         visit("function", &B::function,
               "Function of the script, or its name with its module's, of a body and its stress (Matrix3, Pa, tension "
-              "positive): whether it breaks, or rows of planes, world axes: normals, through the centroid, or a, b, c, d "
-              "with a x + b y + c z = d. Without strengths it is asked for each body, else for those that reach them.");
+              "positive): whether it breaks, or rows of planes, world axes: normals, through the centroid, or a, b, c, "
+              "d with a x + b y + c z = d. Without strengths it is asked for each body, else for those that reach them.");
         visit("records", &B::records, "What `history` shows, as it is saved.");
     }
 
