@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 """Rocks that a lid crushes in a box: grading before and after. scripts/yade.sh -j2 examples/crushing.py
 
-Environment: BODIES (300), STRESS (1e5), OUTPUT (out/crushing). Writes crushed.png and summary.json. SI units; z up.
+Environment: BODIES (300), STRESS (4e4), OUTPUT (out/crushing). Writes crushed.png and summary.json. SI units; z up.
 """
 import os
 
@@ -11,7 +11,7 @@ from potential_particles import files, packing, shapes
 from yade import *
 from yade import utils
 
-COUNT, STRESS, OUT = [os.environ.get(*one) for one in (("BODIES", 300), ("STRESS", 1e5), ("OUTPUT", "out/crushing"))]
+COUNT, STRESS, OUT = [os.environ.get(*one) for one in (("BODIES", 300), ("STRESS", 4e4), ("OUTPUT", "out/crushing"))]
 SIDE, rocks = 0.1 * (0.8 * int(COUNT)) ** (1 / 3), [shapes.random_rock(seed, size=0.08) for seed in range(12)]
 O.materials.append(FrictMat(young=1e8, poisson=0.3, frictionAngle=0.5, density=2650))
 placed = potential_particles.pack(packing.Box((0, 0, 0), (SIDE, SIDE, 2 * SIDE)), rocks, number=int(COUNT))

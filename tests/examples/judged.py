@@ -163,7 +163,7 @@ def oedometer(outcome):
     yield outcome.pictures("oedometer.png")
 
 
-@example("crushing", BODIES=12, STRESS=5e4)
+@example("crushing", BODIES=12)
 def crushing(outcome):
     found = outcome.summary()
     yield f"rocks break: {found['broken']}", found["broken"] > 0 and len(found["masses"]) == 2

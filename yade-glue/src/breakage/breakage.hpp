@@ -68,7 +68,8 @@ public:
         visit("function", &B::function,
               "Function of the script, or its name with its module's, of a body and its stress (Matrix3, Pa, tension "
               "positive): whether it breaks, or rows of planes, world axes: normals, through the centroid, or a, b, c, "
-              "d with a x + b y + c z = d. Without strengths it is asked for each body, else for those that reach them.");
+              "d with a x + b y + c z = d. Without strengths it is asked for each body, else for those that reach "
+              "them.");
         visit("records", &B::records, "What `history` shows, as it is saved.");
     }
 

@@ -71,19 +71,23 @@ void sumForceMoments(const yade::Scene& scene, std::vector<Tensor>& sums)
     for (std::size_t id = 0; id < bodies.size(); ++id) {
         if (!bodies[id])
             continue;
-        const Vector3r& centre = centreOf(bodies, *bodies[id]);
-        // In the order of ids: the container of all interactions has another one after a scene was loaded.
-        for (const auto& [other, pair] : bodies[id]->intrs) {
+        const auto& pairs = bodies[id]->intrs;
+        // Each pair once, in the order of ids: the container of all pairs has another one after a scene was loaded.
+        for (auto at = pairs.upper_bound(static_cast<int>(id)); at != pairs.end(); ++at) {
+            const yade::Interaction& pair = *at->second;
+            if (!contact.read(pair))
+                continue;
+            const auto id1 = static_cast<std::size_t>(pair.id1), id2 = static_cast<std::size_t>(pair.id2);
             // YADE keeps the pairs of an erased body until the next step.
-            const auto place = static_cast<std::size_t>(other);
-            if (place >= bodies.size() || !bodies[place] || !contact.read(*pair))
+            if (id1 >= bodies.size() || id2 >= bodies.size() || !bodies[id1] || !bodies[id2])
                 continue;
             const Vector3r force = contact.physics->normalForce + contact.physics->shearForce;
-            const bool isFirst = pair->id1 == static_cast<int>(id);
-            Vector3r arm = contact.geometry->contactPoint - centre;
-            if (scene.isPeriodic && !isFirst)
-                arm -= scene.cell->hSize * pair->cellDist.cast<double>();
-            sums[id] += (isFirst ? Vector3r(-force) : force) * arm.transpose();
+            const Vector3r& point = contact.geometry->contactPoint;
+            Vector3r other = centreOf(bodies, *bodies[id2]);
+            if (scene.isPeriodic)
+                other += scene.cell->hSize * pair.cellDist.cast<double>();
+            sums[id1] -= force * (point - centreOf(bodies, *bodies[id1])).transpose();
+            sums[id2] += force * (point - other).transpose();
         }
     }
 }
