@@ -27,7 +27,7 @@ public:
 
     void action() override;
 
-    int iterPeriod = 10;
+    int iterPeriod = 20;
     double tensileStrength = 0, compressiveStrength = 0;
     double weibullModulus = 0, referenceVolume = 0;
     int seed = -1;
