@@ -169,6 +169,15 @@ def oedometer(outcome):
     yield outcome.pictures("oedometer.png")
 
 
+@example("crushing", BODIES=12)
+def crushing(outcome):
+    found = outcome.summary()
+    yield f"rocks break: {found['broken']}", found["broken"] > 0 and len(found["masses"]) == 2
+    yield f"their mass stays: {found['masses']}", abs(found["masses"][1] / found["masses"][0] - 1) < 1e-12
+    yield f"they are smaller than before: {found['d50']}", found["d50"][1] < found["d50"][0]
+    yield outcome.pictures("crushed.png")
+
+
 @example("repose", BODIES=40)
 def repose(outcome):
     found = outcome.summary()

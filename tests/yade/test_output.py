@@ -484,7 +484,7 @@ def test_colours_by_values():
     check.true(blue[0] > 0.9 and blue[1] < 0.1, f"bodies by speed: share of blue {blue}")
     check.close(np.abs(seen[1] - seen[0]).max(), 0.0, 0.02, "an array of the same order draws the same")
     check.equal(np.abs(seen[1] - seen[2]).max(), 0.0, "and so do numbers by ids")
-    for given, word in (("speed", "there are velocity, displacement, stress"), ([1, 2], "each of the 3 bodies"),
+    for given, word in (("speed", "there are velocity, displacement, generation, stress"), ([1, 2], "each of the 3 bodies"),
                         ({0: 1.0}, "no number for body 1"), ([1, 2, math.nan], "must be finite")):
         check.raises(ValueError, lambda: potential_particles.plot(path("by.png"), colour=given), f"colour {given}", word)
     potential_particles.plot(path("by.png"), towards=(0, -1, 0), size=(400, 200), up=(1, 0, 0), colour=[0, 1, 2])

@@ -24,6 +24,10 @@ VOLUME, INERTIA = 0.4038225591237064, Vector3(0.04517679396290749, 0.04517679396
 STRENGTH = dict(cohesion=1e6, tensileStrength=2e6, residualFrictionAngle=0.25, residualCohesion=1e3, softening=1e-3)
 PATCH = dict(patch=True, patchTolerance=1e-5)
 GAPS = dict(interactionDistance=1e-3, rotations=True)
+# So strong that nothing breaks.
+BREAKAGE = dict(iterPeriod=2, tensileStrength=1e30, compressiveStrength=2e30, weibullModulus=3.0, referenceVolume=0.5,
+                seed=7, pieces=4, leastSize=0.01, rounding=0.125, surfaceEnergy=2.0, joints=[1.0, 0.0, 0.0],
+                function="module.of_script", records=[1.0, 9.0, 10.0, 2.0, 4.0, -8.0, 0.5, 1.0, 0.25], label="breakage")
 OTHERS = list(unserved.REMEDIES)
 
 
@@ -51,6 +55,7 @@ def scene():
             label="loop"),
         yade.MovingMesh(mass=2.0, free="xz", area=3.0, stress=(1, 2, 3), velocity=(0, 0.5, 0), label="mesh"),
         integrator,
+        yade.Breakage(**BREAKAGE),
     ]
     for tag in ("author", "isoTime", "id", "d.id", "id.d"):
         O.tags[tag] = "test"
@@ -88,7 +93,8 @@ def contents():
         "state": state_numbers(), "shapes": [b.shape.dict() for b in O.bodies],
         "functors": [one.dict() for one in engine(yade.InteractionLoop).geomDispatcher.functors],
         "bounds": [one.dict() for one in engine(yade.Collider).boundDispatcher.functors], "engines": [
-            (type(one).__name__, one.label, one.dict() if isinstance(one, yade.MovingMesh) else None) for one in O.engines
+            (type(one).__name__, one.label, one.dict() if isinstance(one, (yade.Breakage, yade.MovingMesh)) else None)
+            for one in O.engines
         ], "materials": [material.dict() for material in O.materials], "joint": joint_of(), "contact":
             (type(contact.geom).__name__, contact.geom.memory, contact.geom.contactPoint, contact.phys.contactArea)
     }
@@ -142,6 +148,9 @@ def expected_of(found):
         former = yade.ConicJointPhys()
         joint = {name: getattr(former, name) if name.startswith("held") else value for name, value in joint.items()}
         expected["joint"] = kind, {name: joint[name] for name in joint if name not in ("shearForce", "twistMoment")}
+    if "Breakage" not in found:
+        expected["engines"] = [one for one in expected["engines"] if one[0] != "Breakage"]
+        del expected["breakage"]
     if "ConicInteractionLoop" not in found:
         del expected["bounds"], expected["engines"]
     return expected
@@ -171,7 +180,7 @@ for old in sorted(DATA.glob("classes_*.xml")):
     O.load(str(old))
     found = contents()
     expected = expected_of(versions(old.read_text()))
-    for part in {"shapes", "functors", "bounds", "engines", "materials"} & set(expected):
+    for part in {"shapes", "functors", "bounds", "engines", "breakage", "materials"} & set(expected):
         check.equal(found[part], expected[part], f"{old.name}: {part}")
     if "joint" in expected:
         # The patch was that of the library that saved the file, within patchTolerance, 1e-4, and the dashpots were

@@ -7,8 +7,8 @@ them with YADE's registry. docs/laboratory.md says the same in words.
 from yade.wrapper import PotentialParticle
 
 # Forces and motions of bodies by their ids, integration, collision, output: the shape does not count.
-SERVE = frozenset("""AxialGravityEngine BoundDispatcher BoundWatch BoundaryController CentralConstantAccelerationEngine
-Collider CombinedKinematicEngine ConicInteractionLoop FieldApplier FlatGridCollider ForceEngine ForceRecorder
+SERVE = frozenset("""AxialGravityEngine BoundDispatcher BoundWatch BoundaryController Breakage
+CentralConstantAccelerationEngine Collider CombinedKinematicEngine ConicInteractionLoop FieldApplier FlatGridCollider ForceEngine ForceRecorder
 ForceResetter GeneralIntegratorInsertionSortCollider GlobalStiffnessTimeStepper GravityEngine HarmonicForceEngine
 HarmonicMotionEngine HarmonicRotationEngine HdapsGravityEngine HelixEngine IGeomDispatcher IPhysDispatcher
 InsertionSortCollider Integrator InteractionLoop InterpolatingDirectedForceEngine InterpolatingHelixEngine
@@ -50,8 +50,10 @@ SILENT.update({
     name: (_OWN_BODIES, "leave it out, or give it bodies of its own")
     for name in """BicyclePedalEngine CpmStateUpdater Disp2DPropLoadEngine FEInternalForceEngine FacetTopologyAnalyzer
     InternalForceDispatcher KinemCNDEngine KinemCNLEngine KinemCNSEngine KinemCTDEngine KinemSimpleShearBox LawTester
-    PolyhedraSplitter SplitPolyMohrCoulomb SplitPolyTauMax TetraVolumetricLaw""".split()
+    TetraVolumetricLaw""".split()
 })
+SILENT.update({name: (_OWN_BODIES, "use Breakage")
+               for name in ("PolyhedraSplitter", "SplitPolyMohrCoulomb", "SplitPolyTauMax")})
 SILENT.update({
     name: ("takes contacts of spheres, with their lever arms", "use an InteractionLoop with a law of docs/laws.md")
     for name in ("CohesiveFrictionalContactLaw", "ElasticContactLaw")

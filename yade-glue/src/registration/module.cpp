@@ -4,6 +4,7 @@
 // decides what to call.
 #include "abi/registry.hpp"
 
+#include "breakage/force_moments.hpp"
 #include "check/load_check.hpp"
 #include "class_table.hpp"
 #include "drawing/gl1_potential_particle_conic.hpp"
@@ -57,6 +58,18 @@ void takeJoints(const py::object& ids, const py::object& numbers)
     pp::JointsInStep::all().take(scene(), pp::rowsOf<int>(ids), pp::rowsOf<double>(numbers));
 }
 
+// Of all bodies, 9 numbers each, in the order of ids, row by row.
+py::object forceMoments()
+{
+    std::vector<pp::Tensor> sums;
+    pp::sumForceMoments(scene(), sums);
+    std::vector<double> rows;
+    for (const pp::Tensor& sum : sums)
+        for (int i = 0; i < 9; ++i)
+            rows.push_back(sum(i / 3, i % 3));
+    return pp::bytes(rows);
+}
+
 // Enters our classes into YADE's factory, class table and Python module yade.wrapper, in the order of class_table.inc.
 // Throws std::runtime_error when a name is taken.
 void registerClasses()
@@ -107,6 +120,7 @@ BOOST_PYTHON_MODULE(_glue)
     py::def("refresh_joints", &refreshJoints);
     py::def("give_joints", &giveJoints);
     py::def("take_joints", &takeJoints);
+    py::def("force_moments", &forceMoments);
     py::def("surface_mesh", &pp::surfaceMesh);
     py::def("patch_surface", &pp::patchSurface);
     py::def("bodies_near", &pp::bodiesNear);

@@ -41,8 +41,8 @@ def plot(file, towards=(0.46, -0.84, 0.42), size=(1000, 800), tolerance=None, bo
     the picture. bodies: ids; without them, all. patches: bodies become transparent, and contact patches between them
     (functors with patch=True, bonds) show their pressure, with a scale in pascals. chains: the same with force chains,
     a tube along the line between the centres of each contact, its width and colour by the normal force, with a scale
-    in newtons. colour: "velocity", "displacement" (from State.refPos), "stress" (mean pressure within a body), or a
-    number for each body that is no boundary, as {id: number} or in the order of ids: bodies are coloured by it, with a
+    in newtons. colour: "velocity", "displacement" (from State.refPos), "stress" (mean pressure within a body),
+    "generation" (of Breakage), or a number for each body that is no boundary, as {id: number} or in the order of ids: bodies are coloured by it, with a
     scale, which `label` names. whole_scene: all boundaries are in the picture, not only those near the bodies.
     scale_bar: a bar of a round length, as it is in the middle of the bodies. The camera stands so that all bodies are
     seen, through those boundaries (Box, Facet, Wall, shapes with isBoundary) that would hide them. Needs no display.

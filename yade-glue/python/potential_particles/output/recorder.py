@@ -11,11 +11,13 @@ from ..measures import body_stresses
 from . import chains, vtk_files
 from .drawn import ShapeMeshes, Triangles, drawn
 from .patches import Patches, patches
+from .values import generations
 
-_BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "velocity": 3, "angular_velocity": 3, "colour": 3, "stress": 9}
+_BODY = {"id": 1, "material": 1, "mask": 1, "rank": 1, "generation": 1, "velocity": 3, "angular_velocity": 3,
+         "colour": 3, "stress": 9}
 _CONTACT = {"point": 3, "normal": 3, "overlap": 1, "normal_force": 3, "shear_force": 3, "id1": 1, "id2": 1,
             "begin": 3, "end": 3}
-_WHOLE = {"id", "material", "mask", "rank", "id1", "id2"}
+_WHOLE = {"id", "material", "mask", "rank", "generation", "id1", "id2"}
 
 
 class Recorder:
@@ -27,8 +29,9 @@ class Recorder:
     name: path without an ending; its folder is made. Each frame is <name>.bodies.<step>.vtp and
     <name>.contacts.<step>.vtp, and the series <name>.bodies.pvd and <name>.contacts.pvd, which ParaView opens, grow
     with it. Each file appears under its name when it is whole, so that a run may be interrupted at any time. Bodies are
-    triangles, with id, material (its id, or -1), mask, rank, velocity, angular_velocity (world axes), colour and stress
-    (body_stresses, Pa, the rows of a 3 x 3 matrix; 0 for what does not move) of their body.
+    triangles, with id, material (its id, or -1), mask, rank, generation (how often what it was part of has broken),
+    velocity, angular_velocity (world axes), colour and stress (body_stresses, Pa, the rows of a 3 x 3 matrix; 0 for
+    what does not move) of their body.
     Contacts are the points of real interactions, with normal (from body id1 to id2), overlap, normal_force and
     shear_force (world axes, on body id2), id1 and id2; forces are 0 for physics without them. With patch=True the point
     is the centre of pressure. <name>.chains.<step>.vtp has the same contacts as lines between the centres of their
@@ -53,8 +56,7 @@ class Recorder:
             chosen = set(self.ids)
             bodies = [body for body in bodies if body.id in chosen]
         wanted = _with_patches()
-        stresses = body_stresses()
-        rows = _rows(bodies, rank, lambda body, rank: _body(body, rank, stresses.get(body.id)), _BODY)
+        rows = _rows(bodies, (rank, generations(), body_stresses()), _body, _BODY)
         parts = gather((Triangles.together(drawn(bodies, self.meshes)), rows,
                         _rows(contacts, rank, _contact, _CONTACT), patches(contacts if wanted else [])))
         if rank:
@@ -127,11 +129,14 @@ def _with_patches():
                for functor in engine.geomDispatcher.functors)
 
 
-def _body(body, rank, stress):
+def _body(body, of):
+    rank, generation, stresses = of
     material = body.material.id if body.material is not None else -1
     colour = body.shape.color if body.shape is not None else (1, 1, 1)
+    stress = stresses.get(body.id)
     rows = [0.0] * 9 if stress is None else [stress[i, j] for i in range(3) for j in range(3)]
-    return (body.id, material, body.mask, rank, *body.state.vel, *body.state.angVel, *colour, *rows)
+    return (body.id, material, body.mask, rank, generation.get(body.id, 0), *body.state.vel, *body.state.angVel,
+            *colour, *rows)
 
 
 def _contact(contact, rank):

@@ -11,8 +11,18 @@ from ..measures import body_stresses
 NAMES = {
     "velocity": ("speed", "m/s", lambda bodies: [body.state.vel.norm() for body in bodies]),
     "displacement": ("displacement", "m", lambda bodies: [body.state.displ().norm() for body in bodies]),
+    "generation": ("generation", "", lambda bodies: [generations().get(body.id, 0) for body in bodies]),
     "stress": ("mean stress, pressure above 0", "Pa", lambda bodies: mean_pressures(bodies)),
 }
+
+
+def generations():
+    """{id: how often what a body was part of has broken}, of all engines Breakage; of others nothing."""
+    found = {}
+    for engine in yade.O.engines:
+        if isinstance(engine, yade.Breakage):
+            found.update(engine.generations)
+    return found
 
 
 def mean_pressures(bodies):

@@ -66,7 +66,7 @@ def bodies(mass, material=None, rounding=None, fixed=(), overlap=None, color=Non
     made = []
     for one in range(len(mass)):
         block = mass[one]
-        shape, orientation = _shape(block, wanted, overlap)
+        shape, orientation = block_shape(block, wanted, overlap)
         shade = _shade(one) if color is None else color(one) if callable(color) else color
         is_held = bool(held[mass.pieces[one]])
         made.append(
@@ -207,12 +207,14 @@ def _id(given):
     raise ValueError(f"ids holds {given}: an id is a whole number")
 
 
-def _shape(block, wanted, overlap):
-    """The Shape of a block in its principal axes, and the orientation of these."""
+def block_shape(block, wanted, overlap, more=None):
+    """The Shape of a block in its principal axes, and the orientation of these. more: planes beside those of its faces.
+    """
     orientation, axes, moments = principal_axes(block.inertia)
-    heights = block.planes[:, 3] - block.planes[:, :3] @ block.centroid
+    faces = block.planes if more is None else np.vstack([block.planes, more])
+    heights = faces[:, 3] - faces[:, :3] @ block.centroid
     r = wanted.lengths(2.0 * float(heights.min()))[0]
-    planes = np.column_stack([block.planes[:, :3] @ axes, heights + overlap - r])
+    planes = np.column_stack([faces[:, :3] @ axes, heights + overlap - r])
     reach = float(np.linalg.norm(block.corners - block.centroid, axis=1).max())
     shape = Shape(planes=tuple(map(tuple, planes.tolist())), r=r, k=0.0, R=reach, volume=block.volume,
                   inertia=tuple(map(float, moments)), error=1e-12, centroid=(0.0, 0.0, 0.0),
