@@ -34,7 +34,7 @@ BOUNDS = {
     "section/numbers.rs": "MISS ON_BOUNDARY ROUNDING", "settings.rs": "LEAST_OF_DOUBLES SHARE_OF_REGULARISATION"
 }
 REASON = re.compile(r"\b(?:derived|estimated|measured|chosen)\b", re.IGNORECASE)
-SAID = re.compile(r"`?\b([A-Z][A-Z_]{3,})`? = ([\d½](?:[\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹εuU]| − )*[\d⁰¹²³⁴⁵⁶⁷⁸⁹εuU]|[\d½])")
+SAID = re.compile(r"`?\b([A-Z][A-Z_]{3,})`?\s=\s([\d½](?:[\d.·⁻⁰¹²³⁴⁵⁶⁷⁸⁹εuU]| − )*[\d⁰¹²³⁴⁵⁶⁷⁸⁹εuU]|[\d½])")
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 EPSILON = 2.0**-52
 UNITS = {"ε": EPSILON, "u": EPSILON / 2, "U": 4 * EPSILON**2}
