@@ -1,6 +1,11 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
 # The guide: `make guide` runs Sphinx with this file, within YADE, whose classes the Python reference describes.
 import re
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+import constants  # noqa: E402
 
 project = "Potential particles"
 author = "the authors of potential-particles"
@@ -51,5 +56,11 @@ def as_restructured_text(app, what, name, obj, options, lines):
                 lines.append("" if indented else plain_text(line))
 
 
+def with_constants(app, page, source):
+    """The table of constants where a page has its place."""
+    source[0] = source[0].replace("<!-- constants -->", constants.table())
+
+
 def setup(app):
+    app.connect("source-read", with_constants)
     app.connect("autodoc-process-docstring", as_restructured_text)

@@ -150,11 +150,3 @@ struct Readme;
 #[cfg(doctest)]
 #[doc = include_str!("../docs/rust.md")]
 struct Guide;
-
-#[cfg(doctest)]
-#[doc = include_str!("../docs/rock.md")]
-struct RockGuide;
-
-#[cfg(doctest)]
-#[doc = include_str!("../docs/derivatives.md")]
-struct DerivativesGuide;

@@ -232,10 +232,11 @@ pub enum SettingsError {
     NoConeProgram,
 }
 
-/// Smallest `gap_tolerance` at which the rounding of doubles is taken for an answer.
+/// Smallest `gap_tolerance` at which the rounding of doubles is taken for an answer. Chosen: below it most gaps of
+/// doubles are wider.
 pub(crate) const LEAST_OF_DOUBLES: f64 = 1e-13;
 
-/// Share of a smaller `gap_tolerance` that the regularisation of flat faces may take.
+/// Share of a smaller `gap_tolerance` that the regularisation of flat faces may take (chosen).
 const SHARE_OF_REGULARISATION: f64 = 1e-5;
 
 impl Settings {

@@ -123,11 +123,11 @@ pub struct Triangle {
 }
 
 /// Sine of the angle between the two shorter sides, below which it is rounding: each side is off by a unit of rounding,
-/// and so is each product of their components.
+/// and so is each product of their components. Derived: 7u.
 const FLAT: f64 = gamma(32);
 
 /// The same sine below which the normal is taken from numbers of 32 digits: the rounding of the sides, over the sine,
-/// turns it.
+/// turns it. Derived: some 7u over the sine, which [`crate::model::problem::TURN`] covers.
 const NARROW: f64 = 0.5;
 
 impl Triangle {

@@ -20,7 +20,7 @@ use crate::settings::Settings;
 use crate::solver::call::Call;
 use nalgebra::{Matrix3, Vector2, Vector3};
 
-/// Bound on the rounding of a distance, relative to it.
+/// Bound on the rounding of a distance, relative to it (estimated).
 const OF_LENGTHS: f64 = gamma(16);
 
 /// The particle, and what its searches on the parts of a boundary have cost so far.

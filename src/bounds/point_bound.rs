@@ -10,7 +10,8 @@ use nalgebra::Vector3;
 
 /// Factor on the first-order move by the regularisation. Where both S are 0 without it, as for a ball whose centre lies
 /// in a core, the point moves as its root: first order gives half of a small move, and a third of one by a third of the
-/// way to the centre of the regularised body; for longer ones it gives nothing.
+/// way to the centre of the regularised body; for longer ones it gives nothing. Derived: with ρ of the way moved, a
+/// move as the root has 2/(1 − ρ) times the first order.
 const OF_ROOT: f64 = 3.0;
 const LONGEST: f64 = 0.5;
 

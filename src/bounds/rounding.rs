@@ -13,6 +13,7 @@ use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
 /// Largest change of ln λ by rounding at which the weights count as unmoved; the bound is raised by four times as much.
+/// Estimated (docs/theory.md, 4.7).
 const UNMOVED: f64 = 0.02;
 
 /// Bound on the rounding of the sums in a slope, relative to the root of the terms of S times the curvature: γ with

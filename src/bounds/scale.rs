@@ -17,17 +17,17 @@ pub(crate) struct Scale {
     pub high: f64,
 }
 
-/// Rounding of the sums and roots below, relative to s: γ₆ for the sums of S and the weights, halved by the root,
-/// and that of the root itself.
+/// Rounding of the sums and roots below, relative to s: γ₆ for the sums of S and the weights, halved by the root, and
+/// that of the root itself (derived).
 const OF_SCALE: f64 = gamma(4);
 
-/// What bounds of s are apart by rounding, as a share of s².
+/// What bounds of s are apart by rounding, as a share of s² (chosen).
 const OF_DOUBLE: f64 = 1e-14;
 
-/// Root of the least normal number: an s below it has a square that is lost.
+/// Root of the least normal number: an s below it has a square that is lost (derived).
 const UNDERFLOW: f64 = 1.5e-154;
 
-/// Largest gap of an answer that leaves open whether s is below 1.
+/// Largest gap of an answer that leaves open whether s is below 1 (chosen).
 pub(crate) const INCONCLUSIVE: f64 = 1e-2;
 
 impl Scale {

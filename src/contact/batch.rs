@@ -12,11 +12,11 @@ use std::panic::resume_unwind;
 use std::sync::{Mutex, PoisonError};
 use std::thread;
 
-/// Pairs that a thread takes at a time: enough that taking them costs nothing, few enough that no thread waits long
-/// for the last one.
+/// Pairs that a thread takes at a time: enough that taking them costs nothing, few enough that no thread waits long for
+/// the last one. Chosen: no result depends on it.
 pub(crate) const CHUNK: usize = 64;
 
-/// More threads than this are not started, whatever the caller asks.
+/// More threads than this are not started, whatever the caller asks (chosen).
 pub(crate) const MOST_THREADS: usize = 256;
 
 /// Contacts of many pairs of bodies: body i is `particles[i]` at `poses[i]`, pair n is that of the bodies `pairs[n]`,

@@ -32,38 +32,39 @@ struct Here {
     gradient: Vector3<f64>,
 }
 
-/// Most rounds: each takes a fiftieth of the instructions of a solve from the planes.
+/// Most rounds: each takes a fiftieth of the instructions of a solve from the planes (chosen).
 const MOST_ROUNDS: u32 = 8;
 
 /// Each change is at most this share of the last: the method converges then (Kantorovich's theorem asks for the half).
+/// Chosen.
 const CONVERGING: f64 = 0.25;
 
 /// The change that is left is at most this share of the last. It is predicted from two changes and may be ten times as
-/// large: ten times this share is the half that the theorem asks for.
+/// large: ten times this share is the half that the theorem asks for. Chosen.
 const LAST_CHANGE: f64 = 0.05;
 
 /// Share of the tolerance that the predicted next change may take: the prediction from the first two changes is up to
-/// ten times too small.
+/// ten times too small (measured).
 const ENOUGH: f64 = 0.02;
 
 /// Largest share by which the weighted curvatures may change on the way: what is left is then known to a factor of two
-/// (docs/theory.md).
+/// (docs/theory.md). Chosen: 1/(1 − ρ) is at most 2.
 const MOST_CHANGE: f64 = 0.5;
 
 /// Ratio of curvatures up to which the inverse is taken by minors: it loses as many digits, and what is left is
-/// measured at the end.
+/// measured at the end (chosen).
 const MOST_STIFF: f64 = 1e9;
 
 /// Most that the regularisation may have moved the solved point, relative to the smaller bounding radius: less than a
-/// contact point has to be known to.
+/// contact point has to be known to (chosen).
 const MOST_MOVED: f64 = 1e-10;
 
 /// The bound of a carried point is at least so many times that of the solved one: once for the data of the quadratics,
-/// once for the new place.
+/// once for the new place. Derived: 1 + growth, which is 1 at least.
 const INHERITED: f64 = 2.0;
 
 /// Share of the validity radius beyond which the quadratics are set up anew about the point: bounds have grown 42 times
-/// there, and would grow without limit towards 1.
+/// there, and would grow without limit towards 1 (chosen).
 const MOST_USED: f64 = 0.75;
 
 /// Units of rounding, times the ratio of curvatures, in a slope that is carried along a distance (estimated).

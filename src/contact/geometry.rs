@@ -279,8 +279,9 @@ fn normal_of_extremes(pair: &Pair, gradients: &[Vector3<f64>; 2]) -> (Vector3<f6
     }
 }
 
-/// The double before 1.
+/// The double before 1 (derived).
 const LARGEST_BELOW_1: f64 = 1.0 - 0.5 * f64::EPSILON;
 
-/// Square of the difference of two unit vectors that is too small to tell a direction.
+/// Square of the difference of two unit vectors that is too small to tell a direction. Chosen: a difference of 1e-3 has
+/// lost three digits.
 const OPPOSED: f64 = 1e-6;

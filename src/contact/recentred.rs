@@ -15,15 +15,15 @@ use std::cell::Cell;
 pub(super) const MORE_ROUNDING: f64 = 4.0;
 
 /// How often the pieces are set up again about a moving point, before it is solved from the planes: only a solve gives
-/// the response of the optimum to changes of its data.
+/// the response of the optimum to changes of its data (chosen).
 const MOST_RECENTRINGS: f64 = 30.0;
 
-/// How many times as large the rounding of S may be there as where it was solved.
+/// How many times as large the rounding of S may be there as where it was solved (chosen).
 const MOST_GROWTH: f64 = 8.0;
 
 /// Most that may be left of the way to a point that is followed, relative to the smaller bounding radius, whatever the
 /// tolerance: near the rounding of a solved one, so that runs which solve it anew, as on several ranks, stay as near as
-/// the regularisation lets them.
+/// the regularisation lets them (chosen).
 pub(super) const MOST_OPEN: f64 = 1e-13;
 
 impl KnownPiece {

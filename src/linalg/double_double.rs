@@ -17,7 +17,7 @@ pub(crate) struct DoubleDouble {
 }
 
 impl DoubleDouble {
-    /// Bound on the relative error of one operation: 16u² = 2⁻¹⁰².
+    /// Bound on the relative error of one operation: 16u² = 2⁻¹⁰². Derived: a quotient needs 15u², u = 2⁻⁵³.
     pub const UNIT: f64 = 4.0 * f64::EPSILON * f64::EPSILON;
 
     /// a + b without rounding.

@@ -7,10 +7,12 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-/// Square of the sine below which what is left of a normal is rounding.
+/// Square of the sine below which what is left of a normal is rounding. Estimated: two projections leave about (4u)² =
+/// 2e-31.
 pub(crate) const PARALLEL: f64 = 1e-30;
 
-/// Most normals kept from the first pass for the second: few points have more active planes.
+/// Most normals kept from the first pass for the second: few points have more active planes (chosen; further ones are
+/// looked up again).
 const MOST_KEPT: usize = 16;
 
 /// The normals of the active planes, each with the weighted 2w of its plane; times |n|² this is its curvature in the

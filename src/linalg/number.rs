@@ -30,7 +30,7 @@ pub(crate) const fn unknown_vector<const N: usize>() -> SVector<f64, N> {
 pub trait Number:
     Scalar + Copy + Zero + One + ClosedAddAssign + ClosedSubAssign + ClosedMulAssign + ClosedDivAssign + Neg<Output = Self>
 {
-    /// Bound on the relative error of one operation.
+    /// Bound on the relative error of one operation (derived).
     const UNIT: f64;
 
     /// The number that equals a double.

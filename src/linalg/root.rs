@@ -30,7 +30,7 @@ impl Bracket {
     }
 }
 
-/// Most steps of a search with a bracket, here and elsewhere: halving alone leaves 2⁻¹⁰⁰ of it.
+/// Most steps of a search with a bracket, here and elsewhere: halving alone leaves 2⁻¹⁰⁰ of it (chosen).
 pub(crate) const MOST_STEPS: usize = 100;
 
 /// The lower end of a bracket that was halved until nothing is left of it.

@@ -2,13 +2,14 @@
 
 use super::double_double::DoubleDouble;
 
-/// Largest |angle|, 2³⁰ radians: above, the doubles next to each other are more than 10⁻⁷ apart.
+/// Largest |angle|, 2³⁰ radians: above, the doubles next to each other are more than 10⁻⁷ apart (chosen).
 pub(crate) const LARGEST: f64 = 1_073_741_824.0;
 
-/// π/2 as the sum of three doubles, right to 6·10⁻⁵⁰.
+/// π/2 as the sum of three doubles, right to 6·10⁻⁵⁰ (derived).
 const QUARTER: [f64; 3] = [std::f64::consts::FRAC_PI_2, 6.123_233_995_736_766e-17, -1.497_384_904_859_169_8e-33];
 
-/// Terms of each series after the first: what follows is below 10⁻³³ for angles up to π/4.
+/// Terms of each series after the first: what follows is below 10⁻³³ for angles up to π/4. Derived: sine and cosine are
+/// within 2U.
 const TERMS: u32 = 14;
 
 /// Sine and cosine of an angle of at most [`LARGEST`], each right to 2·[`DoubleDouble::UNIT`] (docs/theory.md, 4.9).

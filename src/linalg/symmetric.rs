@@ -3,7 +3,7 @@
 use crate::linalg::number::{Number, Twin};
 use nalgebra::{Matrix3, Vector3};
 
-/// Share of the trace from which an eigenvalue can be told from the rounding of the determinant.
+/// Share of the trace from which an eigenvalue can be told from the rounding of the determinant (chosen).
 const LEAST_DETERMINED: f64 = 1e-7;
 
 /// Bound on that rounding where it can: the products of the determinant are at most tr³, and γ₈ of their sum is

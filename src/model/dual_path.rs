@@ -18,7 +18,8 @@ use crate::linalg::symmetric::{Factor, Symmetric};
 use crate::model::problem::Problem;
 use nalgebra::Vector3;
 
-/// |a·g_A + b·g_B| that counts as zero, in units of rounding of either force.
+/// |a·g_A + b·g_B| that counts as zero, in units of rounding of either force (chosen; the slope itself enters the
+/// bound).
 const BALANCED: f64 = 32.0;
 
 /// One of the two quadratics: value, gradient and curvature where the step begins.

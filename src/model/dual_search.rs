@@ -27,23 +27,23 @@ fn noise<N: Number>(unit: f64, expanded: N, larger: N) -> N {
     N::of(4.0 * unit) * expanded + N::of(8.0 * unit) * larger
 }
 
-/// Most values of λ tried in one solve; a handful is enough where rounding does not interfere.
+/// Most values of λ tried in one solve; a handful is enough where rounding does not interfere (chosen).
 const MOST_TRIALS: usize = 40;
 
-/// One solve moves λ by at most this factor: quadratics that miss the planes further on may not
-/// reach the problem at all.
+/// One solve moves λ by at most this factor: quadratics that miss the planes further on may not reach the problem at
+/// all (chosen).
 const FARTHEST: f64 = 1e6;
 
 /// Largest share of the higher terms of the series in the first one at which the series is used at all: what is left
-/// out then is some 1e-3 of the mismatch.
+/// out then is some 1e-3 of the mismatch (chosen).
 const NEAR: f64 = 0.1;
 
 /// The same share at which a point is taken to the third order: some share⁴ = 8e-15 of it is left out, and
-/// `is_balanced` decides.
+/// `is_balanced` decides (derived).
 const VERY_NEAR: f64 = 3e-4;
 
 /// Points of both curves from which P1 and P2 are looked for before each is searched alone: where λ was guessed, and
-/// where the series leads from there.
+/// where the series leads from there. Measured: with one, closest calls take up to twice as long (docs/theory.md, 9).
 const MOST_PROBES: usize = 2;
 
 /// Where a search goes from a point of the curve.

@@ -7,11 +7,11 @@ use crate::particle::potential::Quadratic;
 use nalgebra::Vector3;
 
 /// Bound on the rounding of a depth n·x − d + n·v after a step, relative to the terms of its sum (docs/theory.md,
-/// "Rounding").
+/// "Rounding"). Derived: 13.7ε.
 pub(crate) const DEPTH_ROUNDING: f64 = gamma(28);
 
 /// Factor on a distance to a plane: so far below 1 that the rounding of the distance does not hide that the plane
-/// switches.
+/// switches (derived).
 pub(crate) const CLEAR: f64 = 1.0 - 4.0 * DEPTH_ROUNDING;
 
 /// What a step does to the active set of one body.

@@ -19,11 +19,12 @@ pub(crate) enum Problem {
     OnBoundary,
 }
 
-/// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact.
+/// Price of infeasibility in units of the multiplier; anything above 1 makes the penalty exact (estimated).
 pub(crate) const PRICE: f64 = 2.0;
 
 /// Bound on the error of the slope by the rounding of A's rotation, in units of ε·(a|∇S_A| + b|∇S_B|): 26.4ε of
-/// a|∇S_A|, which is half of that sum where forces balance (docs/theory.md, "Rounding").
+/// a|∇S_A|, which is half of that sum where forces balance (docs/theory.md, "Rounding"). Derived: 13.2, and 12 for a
+/// point that turns to the world.
 pub(crate) const TURN: f64 = 14.0;
 
 impl Problem {

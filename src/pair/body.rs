@@ -28,10 +28,11 @@ pub(crate) struct Body<'a> {
 
 /// Bounds, in units of ε·length, on the rounding of a point as a body sees it and of n·y in n·y − d: in the axes of B,
 /// and in those of A, whose rotation is rounded (docs/theory.md, "Rounding"). That of d is less than ε·|d| in either.
+/// Derived: 28.9 in A, 2.5 in B.
 const IN_B: f64 = 4.0;
 const IN_A: f64 = 30.0;
 
-/// The rounding of the centre of A, relative to its length, is at most this share of [`IN_A`].
+/// The rounding of the centre of A, relative to its length, is at most this share of [`IN_A`] (derived: 24/50.4).
 const OF_CENTRE: f64 = 0.5;
 
 /// Bound on the rounding of a point as A sees it, at `length` from its centre, which is `centre` from that of B.

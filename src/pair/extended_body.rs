@@ -18,13 +18,14 @@ use crate::pose::{Pose, Turn};
 use nalgebra::{Matrix3, Vector3};
 
 /// Bound on the rounding of e and of a rotated normal, in units of [`DoubleDouble::UNIT`] and of the lengths that enter
-/// (docs/theory.md, "Rounding").
+/// (docs/theory.md, "Rounding"). Derived: 50 + N with sums over N planes, for which 64 + N is taken.
 const ROUNDING: f64 = 64.0;
 
 /// Bound on the rounding of a depth in doubles, relative to its terms: 3ε are derived.
 const OF_DEPTH: f64 = gamma(16);
 
-/// Bound on the rounding of e + n·δ, or of a depth after a step, in the same units.
+/// Bound on the rounding of e + n·δ, or of a depth after a step, in the same units. Derived: 5, of the product 3, of
+/// the sum 1, of δ + v 1.
 pub(crate) const DEPTH_AFTER: f64 = 8.0;
 
 /// Bound on the relative rounding of a sum over so many planes.
@@ -396,7 +397,7 @@ impl<'a> ExtendedBody<'a> {
     }
 }
 
-/// How much farther planes are gathered than they are needed.
+/// How much farther planes are gathered than they are needed (chosen; each gathering at least doubles it).
 const GATHERED_AHEAD: f64 = 2.0;
 
 /// The axes of a body in the world, from its rotation as given.

@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-/// Most planes that may be left out of the active set at one point, or listed.
+/// Most planes that may be left out of the active set at one point, or listed (chosen; with more, the point moves).
 const MOST_DROPPED: usize = 8;
 
 /// A few planes by their places.

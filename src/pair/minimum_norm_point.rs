@@ -176,7 +176,7 @@ impl MinimumNorm {
 }
 
 /// A whole number encodes two planes, the second times [`SECOND`]: each by its place, plus [`MAX_PLANES`] if of B, or
-/// by this if there is none.
+/// by this if there is none (derived).
 const NO_PLANE: usize = 2 * MAX_PLANES;
 const SECOND: usize = 4 * MAX_PLANES;
 

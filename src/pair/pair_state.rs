@@ -101,15 +101,15 @@ pub(crate) struct KnownPiece {
     pub validity_radius: f64,
 }
 
-/// A guess of λ lies in this range: beyond it one particle's weight is lost in rounding altogether.
+/// A guess of λ lies in this range: beyond it one particle's weight is lost in rounding altogether (chosen).
 pub(crate) const LAMBDA_RANGE: (f64, f64) = (1e-30, 1e30);
 
 /// A solution lies no further from the centre of B than that of A does and so many times both bounding radii: midway is
-/// within both bodies where they overlap, and near the line of centres where they do not.
+/// within both bodies where they overlap, and near the line of centres where they do not (chosen).
 const REACH: f64 = 8.0;
 
 impl PairState {
-    /// Marks a solution that is there; all-zero bytes are an empty state.
+    /// Marks a solution that is there; all-zero bytes are an empty state (chosen).
     const FILLED: f64 = 1.0;
 
     /// A state from the eight numbers of [`Self::into_raw`]. Numbers that are no solution count as an empty state.

@@ -1,5 +1,5 @@
 //! The numbers by which particles are bounded, cut, cast upon and integrated, all in one place. Lengths are over the
-//! bounding radius unless another is named. Those that enter a bound are in docs/theory.md, section 10.
+//! bounding radius unless another is named. Those that enter a bound say whether they are derived.
 
 use crate::linalg::number::gamma;
 use std::ops::RangeInclusive;
@@ -38,19 +38,20 @@ impl Limits {
 
 // bounding_volumes.rs
 /// Relative error of a corner. A corner is kept when a face cuts off less than this, which makes the polyhedron larger
-/// at most.
+/// at most. Estimated: up to a condition number of 1e8.
 pub(super) const CORNER_SLACK: f64 = 1e-6;
 /// Largest half edge of a cube, length: the square of its diagonal is still finite. And most bounding radii in units of
 /// r/√(1−k): a plane that bounds the particle along a ray rises by at least the inverse of this along the ray; depth
-/// times rise and the square of the rise, at the surface, are then no smaller than 1e-304 and 1e-300, normal numbers.
+/// times rise and the square of the rise, at the surface, are then no smaller than 1e-304 and 1e-300, normal numbers
+/// (derived).
 pub(super) const SQUARABLE: f64 = 1e150;
 /// Half the edge of the cube tried first, in distances of the farthest face: the corners of few particles lie beyond
 /// it.
 pub(super) const FIRST_CUBE: f64 = 8.0;
-/// Distance in radii within which planes count as nearby.
+/// Distance in radii within which planes count as nearby (chosen).
 pub(super) const NEARBY: f64 = 4.0;
 /// Factor by which bounds are enlarged. It covers the error of a corner and the corner into which it was merged, each
-/// at most [`CORNER_SLACK`].
+/// at most [`CORNER_SLACK`] (estimated).
 pub(super) const BOUND_MARGIN: f64 = 1.0 + 1e-5;
 
 // coplanar.rs
@@ -112,7 +113,7 @@ pub(super) const FACES_APART: f64 = 1e-9;
 ///
 /// Separation tests need 40ε (docs/theory.md, "Separation tests"). The bound of a cluster is off by at most 10ε·(|m| +
 /// ρ)|y|: γ₃ for m·y, γ₃ for |y| and for ρ, ε for the differences n_i − m, and two additions. The rounding of d needs
-/// no more: where it decides the sign of the bound, |d| is about (|m| + ρ)|y| itself.
+/// no more: where it decides the sign of the bound, |d| is about (|m| + ρ)|y| itself (derived).
 pub(crate) const MARGIN: f64 = 1e-14;
 
 // quadrature.rs

@@ -1,5 +1,5 @@
-//! The numbers by which the contact area is found, all in one place. Those that enter a bound are in docs/theory.md,
-//! section 10.
+//! The numbers by which the contact area is found, all in one place. Those that enter an error say whether they
+//! are estimated or measured.
 
 use crate::linalg::number::gamma;
 
@@ -26,13 +26,13 @@ pub(super) const LAST_STEP: f64 = 1e-7;
 
 // boundary.rs
 /// Multiple of the estimated rounding by which S may miss 1 at the end of an arc. Of random arcs 99.9 % miss it by less
-/// than once the estimate; with a wrong active set an arc misses it by many orders of magnitude.
+/// than once the estimate; with a wrong active set an arc misses it by many orders of magnitude (measured).
 pub(super) const MISS: f64 = 100.0;
 /// Sine below which a line counts as a tangent of the boundary.
 pub(super) const TANGENT: f64 = 1e-8;
 
 // cross_section.rs
-/// Multiple of the estimated rounding of S up to which a point counts as on the boundary.
+/// Multiple of the estimated rounding of S up to which a point counts as on the boundary (estimated).
 pub(super) const ON_BOUNDARY: f64 = gamma(8);
 /// 1 − S at the contact point, as a multiple of the estimate of its rounding, below which it is evaluated in
 /// double-double. Above, its relative error and with it that of the area is at most 1e-11; the estimate is ample.
@@ -44,7 +44,7 @@ pub(super) const ON_SURFACE: f64 = 1e-6;
 /// Multiple of the rounding of an excess, or of a distance, below which its sign means nothing.
 ///
 /// The product rate·y has a relative error of γ₂ = ε and the rounding of y adds ε/2, both in units of |y|·|rate|₁; with
-/// the sum that makes 2ε. The factor four on top is an estimate of what a sequence of steps adds.
+/// the sum that makes 2ε. The factor four on top is an estimate of what a sequence of steps adds (estimated).
 pub(super) const ROUNDING: f64 = gamma(16);
 /// The distance loaded first, as a part of the radius.
 pub(super) const FIRST_LOADED: f64 = 0.125;

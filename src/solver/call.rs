@@ -19,10 +19,12 @@ use nalgebra::Vector3;
 use std::ops::ControlFlow::{self, Break, Continue};
 use thiserror::Error;
 
-/// A gap this many times what rounding, regularisation and tolerance explain is solved again in extended precision.
+/// A gap this many times what rounding, regularisation and tolerance explain is solved again in extended precision
+/// (chosen; docs/theory.md, section 9).
 const LOOSE: f64 = 20.0;
 
-/// Upper bound of s above which an s that may be 0 is solved again in extended precision: in a core, s is far less.
+/// Upper bound of s above which an s that may be 0 is solved again in extended precision: in a core, s is far less
+/// (chosen).
 const NEAR_ZERO: f64 = 1e-2;
 
 /// Why no solver had an answer.

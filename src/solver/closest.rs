@@ -19,7 +19,7 @@ use crate::solver::call::{Call, SolveError, Solved};
 use crate::solver::newton;
 use nalgebra::Vector3;
 
-/// Largest factor by which a first guess changes λ.
+/// Largest factor by which a first guess changes λ. Chosen: beyond it the linear extrapolation of a guess says nothing.
 const FAR: f64 = 20.0;
 
 /// One of the closest points, with its bounds.
@@ -152,10 +152,11 @@ fn is_aslant([p1, p2]: &[CertifiedPoint; 2]) -> bool {
     way.norm_squared() * p1.gradient_norms[0] * p1.gradient_norms[0] > 2.0 * across * across
 }
 
-/// Share of P1 − P2 along the faces above which P1 − P2 is longer by more than rounding.
+/// Share of P1 − P2 along the faces above which P1 − P2 is longer by more than rounding. Chosen: the overlap changes by
+/// its square.
 const ALONG: f64 = 1e-6;
 
-/// Rounding of a gradient, relative.
+/// Rounding of a gradient, relative (estimated).
 const OF_GRADIENT: f64 = gamma(64);
 
 /// Whether P1 − P2 has a part along the level surfaces on which gradients change by the regularisation only.

@@ -28,18 +28,19 @@ use crate::pair::pair::{Given, Pair};
 use crate::solver::newton::{self, Goal};
 use nalgebra::{Matrix3, Vector3};
 
-/// Most values of λ.
+/// Most values of λ. Chosen: the bounds do not assume convergence.
 const MOST_WEIGHTS: u32 = 60;
 
 /// Reach of the first planes about the start, in radii of the smaller particle; a solution farther away is solved again
-/// about itself.
+/// about itself (chosen).
 const FIRST_REACH: f64 = 0.05;
 
-/// Factor by which λ moves while only one end of its bracket is known, at most.
+/// Factor by which λ moves while only one end of its bracket is known, at most. Chosen: ten strides span λ from 1 to
+/// either end of `LAMBDA_RANGE`.
 const STRIDE: f64 = 1e3;
 
 /// Share of the bracket of ln λ that a value of λ from the dual path has to leave at each end, after two that did not
-/// halve it.
+/// halve it. Chosen: any share below ½ bounds the number of steps.
 const INSIDE: f64 = 0.1;
 
 /// Both bodies about the start.
@@ -409,10 +410,10 @@ impl Extended<'_> {
 }
 
 /// Bound, in units of ε, on the rounding of a point to doubles and on its way to the world (docs/theory.md,
-/// "Rounding").
+/// "Rounding"). Derived: 12.
 const PLACED: f64 = 16.0;
 
-/// Factor below 1 by which axes that are orthonormal to rounding may lower a curvature.
+/// Factor below 1 by which axes that are orthonormal to rounding may lower a curvature (derived: about 1e-14).
 const LESS: f64 = 1.0 - 1e-12;
 
 impl WideModel {

@@ -9,7 +9,7 @@ use crate::pair::body::Body;
 use crate::particle::potential::OnLine;
 use nalgebra::Vector3;
 
-/// Most trial points of one search; each costs less than an evaluation with Hessians.
+/// Most trial points of one search; each costs less than an evaluation with Hessians (chosen).
 const MOST_TRIALS: usize = 20;
 
 /// The best α tried on the way to the minimum over α in (0, 1) of the merit at `from + α·direction`.
@@ -41,7 +41,7 @@ pub(crate) fn descend([a, b]: [&Body; 2], merit: Merit, from: &Vector3<f64>, dir
     best.1
 }
 
-/// Relative accuracy of the minimum: the direction is itself an approximation.
+/// Relative accuracy of the minimum: the direction is itself an approximation (chosen).
 const CLOSE: f64 = 1e-3;
 
 /// The merit of a problem at λ.

@@ -15,19 +15,19 @@ use crate::solver::line_search::{self, Merit};
 use nalgebra::Vector3;
 use std::ops::ControlFlow::{self, Break, Continue};
 
-/// Most iterations; few searches come to an end after more.
+/// Most iterations; few searches come to an end after more (chosen; searches that take more repeat themselves).
 const MOST_ITERATIONS: u32 = 30;
 
-/// Step length at convergence, relative to the smaller particle.
+/// Step length at convergence, relative to the smaller particle. Chosen: the next step is shorter than rounding.
 const SHORT: f64 = 1e-9;
 
-/// Accepted multiple of the rounding floor of a gap.
+/// Accepted multiple of the rounding floor of a gap (chosen).
 const AS_SHARP: f64 = 8.0;
 
-/// Relative gap above which an optimum is sought again from nearby.
+/// Relative gap above which an optimum is sought again from nearby (chosen).
 const SHARP: f64 = 1e-2;
 
-/// Iterations granted to sharpen an optimum that is known already.
+/// Iterations granted to sharpen an optimum that is known already (chosen).
 const MOST_SHARPENING: u32 = 3;
 
 /// What the solver is asked for.

@@ -25,8 +25,8 @@
     BOOST_CLASS_VERSION(potential_particles::Name, Version)                                        \
     BOOST_CLASS_EXPORT_KEY(potential_particles::Name)
 
-// At the end of the file, in the global namespace: `from module import Name` enters the class into YADE, once the plugin
-// has compared this YADE with what is declared in abi/.
+// At the end of the file, in the global namespace: `from module import Name` enters the class into YADE, once the
+// plugin has compared this YADE with what is declared in abi/.
 #define PP_OWN_MODULE(module, Name)                                                                \
     BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Name)                                        \
     BOOST_PYTHON_MODULE(module)                                                                    \
