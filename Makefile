@@ -281,6 +281,9 @@ header:
 lint:
 	$(call heading,Formatting)
 	@if cargo fmt --version >/dev/null 2>&1; then cargo fmt --all --check; else echo 'skipped: rustfmt is not installed (rustup component add rustfmt)'; fi
+	@if [ "$$(clang-format --version 2>/dev/null | sed -E 's/.*version ([0-9]+).*/\1/')" = 14 ]; then \
+	git ls-files 'yade-glue/*.?pp' 'lammps-glue/*.?pp' 'plugin-common/*.?pp' 'examples/*.cpp' | xargs clang-format --dry-run -Werror; \
+	else echo 'skipped: clang-format 14, that of Debian 12, is not installed (other versions format otherwise)'; fi
 	$(call heading,Warnings)
 	@if cargo clippy --version >/dev/null 2>&1; then cargo clippy --all-targets -- -D warnings; \
 	else echo 'skipped: clippy is not installed (rustup component add clippy)'; fi

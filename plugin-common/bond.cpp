@@ -68,8 +68,8 @@ BondStrain::Reaction BondStrain::reaction(const BondStiffness& stiffness) const
 Wrench BondStrain::dashpot(const BondStiffness& perArea, const Vector3d& velocity, const Vector3d& spin) const
 {
     const Vector3d v = axes.transpose() * velocity, w = axes.transpose() * spin;
-    const Vector3d force = bond.bondArea
-        * Vector3d(perArea.normal * v.x(), perArea.shear * v.y(), perArea.shear * v.z());
+    const Vector3d force
+        = bond.bondArea * Vector3d(perArea.normal * v.x(), perArea.shear * v.y(), perArea.shear * v.z());
     const Vector3d moment = bond.bondMoments.cwiseProduct(
         Vector3d(perArea.shear * w.x(), perArea.normal * w.y(), perArea.normal * w.z()));
     return { -(axes * force), -(axes * moment) };

@@ -60,8 +60,8 @@ struct ContactPatch {
     }
 
 private:
-    // The library sums |y| over the few points at which it has the pressure, and |y| has a kink: on a triangle it is 7 %
-    // off. Under an even pressure it is 0.976 to 1.02 times that of the ellipse with the same moments, for triangles,
+    // The library sums |y| over the few points at which it has the pressure, and |y| has a kink: on a triangle it is 7
+    // % off. Under an even pressure it is 0.976 to 1.02 times that of the ellipse with the same moments, for triangles,
     // rectangles and ellipses of any proportions.
     void boundLever()
     {

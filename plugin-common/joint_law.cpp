@@ -32,8 +32,8 @@ JointLaw::Opposed JointLaw::opposedAt(const Vector3d& point, const Vector3d& dir
 {
     bool known = true;
     const auto of = [&](const JointBody& body, const JointSide& side) {
-        const double mobility = body.mobility(
-            side.force > 0 ? Vector3d(point + 1 / (1 + side.force) * side.pressed) : point, direction);
+        const double mobility
+            = body.mobility(side.force > 0 ? Vector3d(point + 1 / (1 + side.force) * side.pressed) : point, direction);
         known = known && (side.known || !(mobility > 0));
         return mobility * (1 + side.stiffness);
     };
@@ -177,12 +177,12 @@ void JointLaw::pushAsBond(const BondStrain& strain, const Wrench& damping)
     all.twistMoment = moment.dot(n);
     all.bendingMoment = moment - all.twistMoment * n;
     const Vector3d arm1 = strain.point1() - one.centre, arm2 = strain.point2() - other.centre;
-    all.onOne = {
-        -force, reaction.torque1 - damping.moment - (middle - strain.point1()).cross(damping.force) - arm1.cross(force)
-    };
-    all.onOther = {
-        force, reaction.torque2 + damping.moment + (middle - strain.point2()).cross(damping.force) + arm2.cross(force)
-    };
+    all.onOne
+        = { -force,
+            reaction.torque1 - damping.moment - (middle - strain.point1()).cross(damping.force) - arm1.cross(force) };
+    all.onOther
+        = { force,
+            reaction.torque2 + damping.moment + (middle - strain.point2()).cross(damping.force) + arm2.cross(force) };
 }
 
 void JointLaw::repeatAsBond(const Wrench& damping)
@@ -216,9 +216,9 @@ void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const 
     const auto over = [](double load, double stiffness) { return stiffness > 0 ? -load / stiffness : 0; };
     memory.bondDisplacement = Vector3d(over(force.x(), kn * patch.area), over(force.y(), ks * patch.area),
                                        over(force.z(), ks * patch.area));
-    memory.bondRotation = Vector3d(over(moment.x(), ks * memory.bondMoments.x()),
-                                   over(moment.y(), kn * memory.bondMoments.y()),
-                                   over(moment.z(), kn * memory.bondMoments.z()));
+    memory.bondRotation
+        = Vector3d(over(moment.x(), ks * memory.bondMoments.x()), over(moment.y(), kn * memory.bondMoments.y()),
+                   over(moment.z(), kn * memory.bondMoments.z()));
     memory.bondRim.clear();
     for (const Eigen::Vector2d& corner : rimOf(patch, frame, shape1, shape2))
         memory.bondRim.insert(memory.bondRim.end(), { corner.x(), corner.y() });
@@ -227,8 +227,8 @@ void JointLaw::bond(const ContactPatch& patch, const JointMotion& motion, const 
     all.damping.moment += (motion.point - frame.centroid).cross(all.damping.force);
     memory.shearDisplacement = Vector3d::Zero();
     memory.twist = memory.energyAlong = 0;
-    const double energy =
-        BondStrain(memory, { one.centre, one.turn }, { other.centre, other.turn }).energy({ kn, ks }, 0);
+    const double energy
+        = BondStrain(memory, { one.centre, one.turn }, { other.centre, other.turn }).energy({ kn, ks }, 0);
     all.energies.area += all.energies.elastic - energy;
     all.energies.elastic = energy;
 }
@@ -313,8 +313,8 @@ Wrench JointLaw::dashpotAcross(const ContactPatch& patch, const JointMotion& mot
         return {};
     const Vector3d gradient = n.cross(other.spin - one.spin);
     const Region region = regionOf(patch, opposed, gradient);
-    const double half = 0.5 * dashpotPerArea(joint.normalStiffness, opposed.both(), patch.area) * patch.area
-        * region.area;
+    const double half
+        = 0.5 * dashpotPerArea(joint.normalStiffness, opposed.both(), patch.area) * patch.area * region.area;
     const Vector3d centre = motion.point + region.centroid;
     const double opening = (other.velocityAt(centre) - one.velocityAt(centre)).dot(n);
     const double squared = gradient.dot(region.moved), scale = squared > 0 ? std::sqrt(3 / squared) : 0;
@@ -378,8 +378,8 @@ FrictionForce JointLaw::slip(const ContactPatch& patch, double pressing, Springs
     }
     const double shearLeft = trial.shear > 0 ? left.shear / trial.shear : 0,
                  twistLeft = trial.twist > 0 ? left.twist / trial.twist : 0;
-    all.energies.friction = left.shear * (1 - shearLeft) * shear.norm()
-        + left.twist * (1 - twistLeft) * std::abs(twist);
+    all.energies.friction
+        = left.shear * (1 - shearLeft) * shear.norm() + left.twist * (1 - twistLeft) * std::abs(twist);
     shear *= shearLeft;
     twist *= twistLeft;
     // The strength above the residual one is lost at once; friction does work over the slip.

@@ -11,7 +11,8 @@
 namespace potential_particles {
 
 // A joint in one step: step(), or a repetition of the last one.
-class [[gnu::visibility("hidden")]] JointLaw {
+class [[gnu::visibility("hidden")]] JointLaw
+{
 public:
     // sides: what else its bodies held in the last step. Where a body that moves has none known, which is so in the
     // first step of a joint, no dashpot acts.

@@ -34,8 +34,8 @@ struct JointLoad {
     {
         visit(&load.heldStiffness, 1);
         visit(&load.heldForce, 1);
-        for (auto* vector : { &load.heldNormal, &load.heldPoint, &load.heldCentroid, &load.heldSpread,
-                              &load.heldSpreadAcross })
+        for (auto* vector :
+             { &load.heldNormal, &load.heldPoint, &load.heldCentroid, &load.heldSpread, &load.heldSpreadAcross })
             visit(vector->data(), 3);
     }
 };

@@ -52,28 +52,28 @@ namespace {
 
     // The depth is concave along a ray and begins above 0: Newton's method from outside comes down to its end without
     // crossing it, as that for a single body.
-PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Vector3d& point,
-                        const Vector3d& direction)
-{
-    const double outside = std::max(one.reach(point), other.reach(point));
-    PosedShape::Exit exit { outside, direction };
-    for (int step = 0; step < 100; ++step) {
-        const Vector3d at = point + exit.length * direction;
-        Vector3d gradient, ofOther;
-        const double depth = one.depth(at, &gradient) + other.depth(at, &ofOther);
-        gradient += ofOther;
-        const double slope = gradient.dot(direction), next = exit.length - depth / slope;
-        if (!(slope < 0) || !(next < exit.length))
-            break;
-        const bool last = exit.length - next < std::numeric_limits<double>::epsilon() * outside;
-        exit = { std::max(next, 0.0), -gradient };
-        if (last || next <= 0)
-            break;
-    }
-    for (const PosedShape* body : { &one, &other })
-        if (const PosedShape::Exit edge = body->exitOfTriangle(point, direction); edge.length < exit.length)
-            exit = edge;
-    return exit;
+    PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Vector3d& point,
+                            const Vector3d& direction)
+    {
+        const double outside = std::max(one.reach(point), other.reach(point));
+        PosedShape::Exit exit { outside, direction };
+        for (int step = 0; step < 100; ++step) {
+            const Vector3d at = point + exit.length * direction;
+            Vector3d gradient, ofOther;
+            const double depth = one.depth(at, &gradient) + other.depth(at, &ofOther);
+            gradient += ofOther;
+            const double slope = gradient.dot(direction), next = exit.length - depth / slope;
+            if (!(slope < 0) || !(next < exit.length))
+                break;
+            const bool last = exit.length - next < std::numeric_limits<double>::epsilon() * outside;
+            exit = { std::max(next, 0.0), -gradient };
+            if (last || next <= 0)
+                break;
+        }
+        for (const PosedShape* body : { &one, &other })
+            if (const PosedShape::Exit edge = body->exitOfTriangle(point, direction); edge.length < exit.length)
+                exit = edge;
+        return exit;
     }
 
     double cross(const Plane& a, const Plane& b) { return a.x() * b.y() - a.y() * b.x(); }
@@ -96,7 +96,9 @@ PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Ve
     template <class RimAlong> class CornerSearch {
     public:
         // spread: lengths in which the area is about as wide as high.
-        CornerSearch(const Plane& spread, const RimAlong& rimAlong) : rimAlong(rimAlong), close(1e-7 * spread.norm())
+        CornerSearch(const Plane& spread, const RimAlong& rimAlong)
+            : rimAlong(rimAlong)
+            , close(1e-7 * spread.norm())
         {
             constexpr int rays = 12;
             const auto ray = [&](int i) {
@@ -133,7 +135,8 @@ PosedShape::Exit exitOf(const PosedShape& one, const PosedShape& other, const Ve
                 return;
             const double height = here.outward.dot(here.at), nextHeight = next.outward.dot(next.at);
             const Plane meeting = Plane(height * next.outward.y() - nextHeight * here.outward.y(),
-                                        nextHeight * here.outward.x() - height * next.outward.x()) / slope;
+                                        nextHeight * here.outward.x() - height * next.outward.x())
+                / slope;
             const bool isBetween = cross(here.at, meeting) > 0 && cross(meeting, next.at) > 0;
             if (!isBetween || !((meeting - here.at).norm() > close && (meeting - next.at).norm() > close))
                 return;

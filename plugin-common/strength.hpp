@@ -77,10 +77,10 @@ public:
 
 private:
     static constexpr int count = 4; // on half an ellipse, at odd multiples of 22.5 degrees
-    static constexpr double cosines[count] = { 0.92387953251128674, 0.38268343236508977, -0.38268343236508977,
-                                               -0.92387953251128674 };
-    static constexpr double sines[count] = { 0.38268343236508977, 0.92387953251128674, 0.92387953251128674,
-                                             0.38268343236508977 };
+    static constexpr double cosines[count]
+        = { 0.92387953251128674, 0.38268343236508977, -0.38268343236508977, -0.92387953251128674 };
+    static constexpr double sines[count]
+        = { 0.38268343236508977, 0.92387953251128674, 0.92387953251128674, 0.38268343236508977 };
     double x[count], y[count], rings[2];
 };
 

@@ -21,7 +21,10 @@ namespace potential_particles {
 class Welder {
 public:
     // `largest`: no weld is longer.
-    explicit Welder(double largest) : cell(8 * largest) { }
+    explicit Welder(double largest)
+        : cell(8 * largest)
+    {
+    }
 
     int numberOf(const Eigen::Vector3d& point, double weld)
     {
@@ -73,8 +76,8 @@ private:
 inline bool isUsable(const Triangle& vertices, double weld)
 {
     return weld > 0 && std::all_of(vertices.begin(), vertices.end(), [weld](const Eigen::Vector3d& vertex) {
-        return vertex.allFinite() && vertex.cwiseAbs().maxCoeff() < 1e18 * weld;
-    });
+               return vertex.allFinite() && vertex.cwiseAbs().maxCoeff() < 1e18 * weld;
+           });
 }
 
 } // namespace potential_particles

@@ -44,8 +44,8 @@ public:
         const double mass = one.mass > 0 && other.mass > 0 ? one.mass * other.mass / (one.mass + other.mass)
                                                            : std::max(one.mass, other.mass);
         const double loss = -std::log(restitution), zeta = loss / std::hypot(M_PI, loss);
-        phys.normalForce = (phys.kn * geom.penetrationDepth
-                            - 2 * zeta * std::sqrt(phys.kn * mass) * velocity.dot(geom.normal))
+        phys.normalForce
+            = (phys.kn * geom.penetrationDepth - 2 * zeta * std::sqrt(phys.kn * mass) * velocity.dot(geom.normal))
             * geom.normal;
         Vector3r& shear = geom.rotate(phys.shearForce);
         shear -= phys.ks * geom.shearInc;

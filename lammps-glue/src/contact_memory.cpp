@@ -125,9 +125,8 @@ void ContactMemory::forgetThoseBefore()
     std::sort(all.begin(), all.end());
     for (int i = 0; i < atom->nlocal; ++i) {
         const auto first = partners.begin() + ranges[i].first;
-        const auto isNew = [&](const Partner& partner) {
-            return std::binary_search(all.begin(), all.end(), partner.other);
-        };
+        const auto isNew
+            = [&](const Partner& partner) { return std::binary_search(all.begin(), all.end(), partner.other); };
         ranges[i].count = static_cast<int>(std::remove_if(first, first + ranges[i].count, isNew) - first);
     }
 }

@@ -19,37 +19,37 @@ namespace potential_particles {
 
 namespace {
 
-constexpr unsigned long long mostBytes = 2000000000; // one message of MPI
+    constexpr unsigned long long mostBytes = 2000000000; // one message of MPI
 
-// Why the file cannot be read, or nothing, and `bytes`. A device or a pipe may never end.
-std::string readOrWhy(const std::string& path, std::string& bytes)
-{
-    try {
-        if (std::filesystem::is_directory(path))
-            return "it is a folder: give the path of a file";
-        if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
-            return "it is a device or a pipe: give the path of a file";
-        std::ifstream file(path, std::ios::binary);
-        if (!file)
-            return "the file cannot be read: give its path from the folder in which LAMMPS was started";
-        const auto size = std::filesystem::file_size(path);
-        if (size > mostBytes)
-            return std::to_string(size) + " bytes are more than the 2 GB that are read";
-        bytes.resize(size);
-        file.read(bytes.data(), static_cast<std::streamsize>(size));
-        return static_cast<bool>(file) ? "" : "the file cannot be read to its end";
-    } catch (const std::exception&) {
-        return "the file cannot be read, or there is no memory for it";
+    // Why the file cannot be read, or nothing, and `bytes`. A device or a pipe may never end.
+    std::string readOrWhy(const std::string& path, std::string& bytes)
+    {
+        try {
+            if (std::filesystem::is_directory(path))
+                return "it is a folder: give the path of a file";
+            if (std::filesystem::exists(path) && !std::filesystem::is_regular_file(path))
+                return "it is a device or a pipe: give the path of a file";
+            std::ifstream file(path, std::ios::binary);
+            if (!file)
+                return "the file cannot be read: give its path from the folder in which LAMMPS was started";
+            const auto size = std::filesystem::file_size(path);
+            if (size > mostBytes)
+                return std::to_string(size) + " bytes are more than the 2 GB that are read";
+            bytes.resize(size);
+            file.read(bytes.data(), static_cast<std::streamsize>(size));
+            return static_cast<bool>(file) ? "" : "the file cannot be read to its end";
+        } catch (const std::exception&) {
+            return "the file cannot be read, or there is no memory for it";
+        }
     }
-}
 
-void tellAll(LAMMPS* lmp, std::string& text, int teller)
-{
-    unsigned long long size = text.size();
-    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, teller, lmp->world);
-    text.resize(size);
-    MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, teller, lmp->world);
-}
+    void tellAll(LAMMPS* lmp, std::string& text, int teller)
+    {
+        unsigned long long size = text.size();
+        MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, teller, lmp->world);
+        text.resize(size);
+        MPI_Bcast(text.data(), static_cast<int>(size), MPI_CHAR, teller, lmp->world);
+    }
 
 } // namespace
 

@@ -16,9 +16,9 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* style = "fix nve/potential/particle";
+    constexpr const char* style = "fix nve/potential/particle";
 
-Quaterniond quaternion(const double* q) { return Quaterniond(q[0], q[1], q[2], q[3]); }
+    Quaterniond quaternion(const double* q) { return Quaterniond(q[0], q[1], q[2], q[3]); }
 
 } // namespace
 
@@ -43,10 +43,7 @@ int FixNve::groups(LAMMPS* lmp)
 
 int FixNve::setmask() { return FixConst::INITIAL_INTEGRATE | FixConst::FINAL_INTEGRATE; }
 
-void FixNve::init()
-{
-    shapes = FixShapes::of(lmp, style);
-}
+void FixNve::init() { shapes = FixShapes::of(lmp, style); }
 
 void FixNve::push()
 {
@@ -55,8 +52,8 @@ void FixNve::push()
     for (int i = 0; i < atom->nlocal; ++i) {
         if (!(atom->mask[i] & groupbit))
             continue;
-        const Vector3d moments = atom->rmass[i] / shapes->shape(atom->type[i]).volume
-            * shapes->shape(atom->type[i]).moments;
+        const Vector3d moments
+            = atom->rmass[i] / shapes->shape(atom->type[i]).volume * shapes->shape(atom->type[i]).moments;
         const Eigen::Matrix3d at = quaternion(q[i]).toRotationMatrix();
         Map<Vector3d> v(atom->v[i]), turn(atom->omega[i]);
         v += half / atom->rmass[i] * Map<Vector3d>(atom->f[i]);

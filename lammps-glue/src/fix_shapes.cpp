@@ -24,8 +24,8 @@ using namespace LAMMPS_NS;
 namespace potential_particles {
 namespace {
 
-constexpr const char* styleName = "potential/particle/shapes";
-constexpr const char* property = "orientation";
+    constexpr const char* styleName = "potential/particle/shapes";
+    constexpr const char* property = "orientation";
 
 } // namespace
 
@@ -63,8 +63,8 @@ FixShapes::FixShapes(LAMMPS* lmp, int count, char** arguments)
             }
             if (found < 0)
                 error->all(FLERR, "fix {}: {} has no shape {}: it has{}", styleName, path, arguments[i + 2], names);
-            const double density = numberIn(lmp, std::string("fix ") + styleName, "density", arguments[i + 3],
-                                            1 / bearable);
+            const double density
+                = numberIn(lmp, std::string("fix ") + styleName, "density", arguments[i + 3], 1 / bearable);
             for (int type = low; type <= high; ++type) {
                 ofType[type] = found;
                 densities[type] = density;

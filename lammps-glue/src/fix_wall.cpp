@@ -25,8 +25,8 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr double mostRadii = 1e9; // coordinates are then rounded by 1e-7 of a body
-constexpr double onePlane = 1e-6; // of a radius, and as an angle: planes that are no farther apart are one
+    constexpr double mostRadii = 1e9; // coordinates are then rounded by 1e-7 of a body
+    constexpr double onePlane = 1e-6; // of a radius, and as an angle: planes that are no farther apart are one
 
 } // namespace
 
@@ -52,8 +52,8 @@ void FixWall::checkPlace() const
     for (const Plane& plane : planes)
         farthest = std::max(farthest, plane.point.lpNorm<Eigen::Infinity>());
     if (mesh)
-        farthest = std::max(
-            { farthest, mesh->low().lpNorm<Eigen::Infinity>(), mesh->high().lpNorm<Eigen::Infinity>() });
+        farthest
+            = std::max({ farthest, mesh->low().lpNorm<Eigen::Infinity>(), mesh->high().lpNorm<Eigen::Infinity>() });
     if (farthest > mostRadii * shapes->smallestRadius())
         error->all(FLERR,
                    "fix {} {}: it has a coordinate of {}, beyond {} radii of the smallest body, {}: put it nearer to "
@@ -270,8 +270,8 @@ void FixWall::solve(int i, const Shape& shape, Surroundings& here)
             continue;
         const int element = one.element;
         const Triangle* const triangle = triangleOf(element);
-        const auto old = std::find_if(here.known.begin(), here.known.end(),
-                                      [&](const Known& k) { return k.element == element; });
+        const auto old
+            = std::find_if(here.known.begin(), here.known.end(), [&](const Known& k) { return k.element == element; });
         Known next = old != here.known.end() ? *old : Known { element };
         const bool touchedBefore = next.touches;
         next.touches = false;
@@ -384,8 +384,8 @@ std::optional<PatchInStep> FixWall::patchOn(int i, const Shape& shape, const Fra
         // The body stays on the side on which the contact began.
         const auto& [a, b, c] = *triangle;
         const Vector3d front = (b - a).cross(c - a);
-        const Vector3d towardsWall = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal
-                                                            : Vector3d(found.normal);
+        const Vector3d towardsWall
+            = contact.joint.touching ? frame.turn.conjugate() * contact.joint.normal : Vector3d(found.normal);
         fromFront = towardsWall.dot(front) < 0;
     }
     WallPatch one { shape.particle.get(), pose, triangle, fromFront, found, contact.patch };
@@ -415,8 +415,8 @@ void FixWall::applyPatchLaw(int i, const Shape& shape, const Frame& frame, bool 
     JointBody body {
         Vector3d(atom->x[i]), Quaterniond(q[0], q[1], q[2], q[3]), Vector3d(atom->v[i]), Vector3d(atom->omega[i]), {}
     };
-    body.mass = { Vector3d::Constant(1 / mass), shape.volume / mass * shape.moments.cwiseInverse(), body.centre,
-                  body.turn };
+    body.mass
+        = { Vector3d::Constant(1 / mass), shape.volume / mass * shape.moments.cwiseInverse(), body.centre, body.turn };
     const JointBody wall { frame.origin, frame.turn, frame.velocity, frame.angularVelocity, {} };
     const std::optional<PatchInStep> here = patchOn(i, shape, frame, touch, contact, pose);
     if (!contact.joint.touching)

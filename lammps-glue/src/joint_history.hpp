@@ -51,42 +51,42 @@ struct JointHistory {
 
 namespace joint_numbers {
 
-struct Count {
-    int count = 0;
-    void operator()(const bool&) { ++count; }
-    void operator()(const double*, int n) { count += n; }
-    void operator()(const std::vector<double>& list) { count += 1 + static_cast<int>(list.size()); }
-};
+    struct Count {
+        int count = 0;
+        void operator()(const bool&) { ++count; }
+        void operator()(const double*, int n) { count += n; }
+        void operator()(const std::vector<double>& list) { count += 1 + static_cast<int>(list.size()); }
+    };
 
-struct Write {
-    double* to;
-    void operator()(const bool& flag) { *to++ = flag; }
-    void operator()(const double* from, int n)
-    {
-        for (int i = 0; i < n; ++i)
-            *to++ = from[i];
-    }
-    void operator()(const std::vector<double>& list)
-    {
-        *to++ = static_cast<double>(list.size());
-        (*this)(list.data(), static_cast<int>(list.size()));
-    }
-};
+    struct Write {
+        double* to;
+        void operator()(const bool& flag) { *to++ = flag; }
+        void operator()(const double* from, int n)
+        {
+            for (int i = 0; i < n; ++i)
+                *to++ = from[i];
+        }
+        void operator()(const std::vector<double>& list)
+        {
+            *to++ = static_cast<double>(list.size());
+            (*this)(list.data(), static_cast<int>(list.size()));
+        }
+    };
 
-struct Read {
-    const double* from;
-    void operator()(bool& flag) { flag = *from++ != 0; }
-    void operator()(double* to, int n)
-    {
-        for (int i = 0; i < n; ++i)
-            to[i] = *from++;
-    }
-    void operator()(std::vector<double>& list)
-    {
-        list.resize(static_cast<size_t>(*from++));
-        (*this)(list.data(), static_cast<int>(list.size()));
-    }
-};
+    struct Read {
+        const double* from;
+        void operator()(bool& flag) { flag = *from++ != 0; }
+        void operator()(double* to, int n)
+        {
+            for (int i = 0; i < n; ++i)
+                to[i] = *from++;
+        }
+        void operator()(std::vector<double>& list)
+        {
+            list.resize(static_cast<size_t>(*from++));
+            (*this)(list.data(), static_cast<int>(list.size()));
+        }
+    };
 
 } // namespace joint_numbers
 
@@ -150,7 +150,8 @@ JointForces jointForces(const JointParameters& joint, JointHistory& history, con
             law.repeatAsPatch(here->patch, motionAt(*here), history.damping);
         return law.forces();
     }
-    law.step(here && here->patch.area > 0 ? &here->patch : nullptr, true, [&] { return motionAt(*here); }, posed);
+    law.step(
+        here && here->patch.area > 0 ? &here->patch : nullptr, true, [&] { return motionAt(*here); }, posed);
     history.touching = here.has_value();
     if (here)
         history.normal = here->normal;

@@ -20,64 +20,66 @@
 namespace potential_particles {
 namespace {
 
-using Corner = std::array<float, 3>;
+    using Corner = std::array<float, 3>;
 
-constexpr double mostCells = 64; // for a triangle, on the average
+    constexpr double mostCells = 64; // for a triangle, on the average
 
-std::vector<Corner> binaryCorners(const std::string& bytes, uint32_t count)
-{
-    std::vector<Corner> read(3 * static_cast<size_t>(count));
-    for (uint32_t t = 0; t < count; ++t)
-        std::memcpy(&read[3 * static_cast<size_t>(t)], bytes.data() + 84 + 50 * static_cast<size_t>(t) + 12, 36);
-    return read;
-}
+    std::vector<Corner> binaryCorners(const std::string& bytes, uint32_t count)
+    {
+        std::vector<Corner> read(3 * static_cast<size_t>(count));
+        for (uint32_t t = 0; t < count; ++t)
+            std::memcpy(&read[3 * static_cast<size_t>(t)], bytes.data() + 84 + 50 * static_cast<size_t>(t) + 12, 36);
+        return read;
+    }
 
-std::vector<Corner> textCorners(const std::string& bytes, const std::string& path)
-{
-    std::vector<Corner> read;
-    std::istringstream words(bytes);
-    bool ends = false;
-    for (std::string word; words >> word; ends |= word == "endsolid")
-        if (word == "vertex") {
-            Corner corner;
-            for (float& x : corner) {
-                const double number = words >> word ? numberOf(word) : NAN;
-                if (std::isnan(number))
-                    throw std::runtime_error(path + ": vertex " + std::to_string(read.size() + 1)
-                                             + " is not three numbers");
-                x = static_cast<float>(number);
+    std::vector<Corner> textCorners(const std::string& bytes, const std::string& path)
+    {
+        std::vector<Corner> read;
+        std::istringstream words(bytes);
+        bool ends = false;
+        for (std::string word; words >> word; ends |= word == "endsolid")
+            if (word == "vertex") {
+                Corner corner;
+                for (float& x : corner) {
+                    const double number = words >> word ? numberOf(word) : NAN;
+                    if (std::isnan(number))
+                        throw std::runtime_error(path + ": vertex " + std::to_string(read.size() + 1)
+                                                 + " is not three numbers");
+                    x = static_cast<float>(number);
+                }
+                read.push_back(corner);
             }
-            read.push_back(corner);
+        if (!ends)
+            throw std::runtime_error(
+                path
+                + ": it is no whole STL file: a text ends with endsolid, a binary file has 84 bytes "
+                  "and 50 for each triangle");
+        return read;
+    }
+
+    // Whether the library takes a triangle: it is asked with a ball, before any body comes.
+    class TriangleCheck {
+    public:
+        TriangleCheck()
+        {
+            pp_particle* made = nullptr;
+            if (pp_particle_new(nullptr, 0, 1, 1, 1, &made, nullptr, 0) == PP_OK)
+                ball.reset(made, pp_particle_free);
         }
-    if (!ends)
-        throw std::runtime_error(path
-                                 + ": it is no whole STL file: a text ends with endsolid, a binary file has 84 bytes "
-                                   "and 50 for each triangle");
-    return read;
-}
 
-// Whether the library takes a triangle: it is asked with a ball, before any body comes.
-class TriangleCheck {
-public:
-    TriangleCheck()
-    {
-        pp_particle* made = nullptr;
-        if (pp_particle_new(nullptr, 0, 1, 1, 1, &made, nullptr, 0) == PP_OK)
-            ball.reset(made, pp_particle_free);
-    }
+        bool takes(const Triangle& triangle) const
+        {
+            const Eigen::Vector3d& at = triangle[0];
+            const pp_pose pose { { at[0], at[1], at[2] }, { 1, 0, 0, 0 } };
+            pp_flat_contact found;
+            const pp_status status
+                = pp_contact_triangle(ball.get(), &pose, numbersOf(triangle), nullptr, nullptr, &found);
+            return status != PP_BAD_POINT && status != PP_DEGENERATE_TRIANGLE;
+        }
 
-    bool takes(const Triangle& triangle) const
-    {
-        const Eigen::Vector3d& at = triangle[0];
-        const pp_pose pose { { at[0], at[1], at[2] }, { 1, 0, 0, 0 } };
-        pp_flat_contact found;
-        const pp_status status = pp_contact_triangle(ball.get(), &pose, numbersOf(triangle), nullptr, nullptr, &found);
-        return status != PP_BAD_POINT && status != PP_DEGENERATE_TRIANGLE;
-    }
-
-private:
-    std::shared_ptr<const pp_particle> ball;
-};
+    private:
+        std::shared_ptr<const pp_particle> ball;
+    };
 
 } // namespace
 

@@ -24,9 +24,9 @@ using namespace LAMMPS_NS;
 namespace potential_particles {
 namespace {
 
-constexpr const char* coefficients = "pair_coeff of potential/particle";
-constexpr const char* options =
-    "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch TOL, whole STEP, bonds yes or no";
+    constexpr const char* coefficients = "pair_coeff of potential/particle";
+    constexpr const char* options = "expected carry TOL, flat EPS, closest, threads N, failures stop or count, patch "
+                                    "TOL, whole STEP, bonds yes or no";
 
 } // namespace
 
@@ -151,8 +151,8 @@ void PairPotentialParticle::checkTimeSteps()
     for (int i = 1; !byPatch && i <= atom->ntypes; ++i)
         for (int j = i; j <= atom->ntypes; ++j) {
             const double massA = shapes->massOf(i), massB = shapes->massOf(j);
-            const double most = 2
-                * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
+            const double most
+                = 2 * std::sqrt(massA * massB / (massA + massB) / laws[i * (atom->ntypes + 1) + j].stiffest());
             if (update->dt > most)
                 error->all(FLERR,
                            "{}: timestep = {}: a contact of types {} and {} is unstable above {}, and with levers well "

@@ -25,18 +25,18 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr int pointValues = 9;
+    constexpr int pointValues = 9;
 
-std::string described(const pp_pose& pose)
-{
-    std::string text = "position";
-    for (double x : pose.position)
-        text += fmt::format(" {:.17g}", x);
-    text += ", orientation";
-    for (double q : pose.orientation)
-        text += fmt::format(" {:.17g}", q);
-    return text;
-}
+    std::string described(const pp_pose& pose)
+    {
+        std::string text = "position";
+        for (double x : pose.position)
+            text += fmt::format(" {:.17g}", x);
+        text += ", orientation";
+        for (double q : pose.orientation)
+            text += fmt::format(" {:.17g}", q);
+        return text;
+    }
 
 } // namespace
 
@@ -319,10 +319,10 @@ void PairPotentialParticle::removeSlot(int slot)
 // A contact that failed keeps the geometry of the last step, if it has one.
 void PairPotentialParticle::fail(int a, int b, pp_status status)
 {
-    const std::string what = fmt::format(
-        "{}: the contact of atoms {} and {} failed: {}. Shapes {} and {}; A: {}; B: {}", style, atom->tag[a],
-        atom->tag[b], pp_status_message(status), shapes->shape(atom->type[a]).name, shapes->shape(atom->type[b]).name,
-        described(poses[a]), described(poses[b]));
+    const std::string what
+        = fmt::format("{}: the contact of atoms {} and {} failed: {}. Shapes {} and {}; A: {}; B: {}", style,
+                      atom->tag[a], atom->tag[b], pp_status_message(status), shapes->shape(atom->type[a]).name,
+                      shapes->shape(atom->type[b]).name, described(poses[a]), described(poses[b]));
     const bool badPose = status == PP_BAD_POSITION || status == PP_BAD_ORIENTATION;
     if (stopAtFailure || badPose)
         error->one(FLERR,
@@ -337,9 +337,9 @@ void PairPotentialParticle::solveNear()
     const size_t count = bodies.size();
     statuses.resize(count);
     static_assert(sizeof(Bodies) == 2 * sizeof(uint32_t));
-    const pp_status status = pp_contact_detect_batch(particles.data(), poses.data(), particles.size(),
-                                                     count ? &bodies[0].a : nullptr, count, &how, threads,
-                                                     states.data(), answers.data(), statuses.data());
+    const pp_status status
+        = pp_contact_detect_batch(particles.data(), poses.data(), particles.size(), count ? &bodies[0].a : nullptr,
+                                  count, &how, threads, states.data(), answers.data(), statuses.data());
     if (status != PP_OK)
         error->one(FLERR, "{}: {}", style, pp_status_message(status));
     for (int slot = 0; slot < slotCount();) {

@@ -10,59 +10,59 @@
 namespace potential_particles {
 namespace {
 
-// Of mass properties; a shape counts as centred and principal to the other.
-constexpr double massTolerance = 1e-9, centred = 1e-5;
+    // Of mass properties; a shape counts as centred and principal to the other.
+    constexpr double massTolerance = 1e-9, centred = 1e-5;
 
-struct Place {
-    const std::string& path;
-    int line = 0;
+    struct Place {
+        const std::string& path;
+        int line = 0;
 
-    [[noreturn]] void refuse(const std::string& why) const
+        [[noreturn]] void refuse(const std::string& why) const
+        {
+            throw std::runtime_error(path + ":" + std::to_string(line) + ": " + why);
+        }
+    };
+
+    std::string number(double value)
     {
-        throw std::runtime_error(path + ":" + std::to_string(line) + ": " + why);
+        std::ostringstream out;
+        out << value;
+        return out.str();
     }
-};
 
-std::string number(double value)
-{
-    std::ostringstream out;
-    out << value;
-    return out.str();
-}
-
-Shape finished(const std::string& name, const std::vector<double>& planes, double r, double k, double shadowRadius,
-               const Place& place)
-{
-    Shape shape;
-    shape.name = name;
-    pp_particle* made = nullptr;
-    char why[PP_MESSAGE_SIZE];
-    if (pp_particle_new(planes.data(), planes.size() / 4, r, k, shadowRadius, &made, why, sizeof why) != PP_OK)
-        place.refuse("shape " + name + ": " + why);
-    shape.particle.reset(made, pp_particle_free);
-    pp_mass_properties mass;
-    if (pp_particle_bounding_radius(made, &shape.radius) != PP_OK
-        || pp_particle_mass_properties(made, massTolerance, &mass) != PP_OK)
-        place.refuse("shape " + name + ": its mass properties cannot be computed: scale it to a size near 1");
-    const Eigen::Vector3d centre(mass.centroid);
-    if (centre.norm() > centred * shape.radius)
-        place.refuse("shape " + name + ": its centre of mass is at " + number(centre[0]) + " " + number(centre[1]) + " "
-                     + number(centre[2])
-                     + ": move its planes so that it is at the origin (potential_particles.to_lammps does)");
-    const double* inertia = mass.inertia;
-    const double most = std::max({ std::abs(inertia[3]), std::abs(inertia[4]), std::abs(inertia[5]) });
-    if (most > centred * std::max({ inertia[0], inertia[1], inertia[2] }))
-        place.refuse("shape " + name + ": its axes are not principal (product of inertia " + number(most)
-            + "): turn its planes into principal axes (potential_particles.to_lammps does)");
-    shape.volume = mass.volume;
-    shape.moments = Eigen::Vector3d(inertia);
-    Mark mark;
-    mark.add(planes.data(), planes.size());
-    for (const double number : { r, k, shadowRadius })
-        mark.add(&number, 1);
-    shape.mark = mark.value();
-    return shape;
-}
+    Shape finished(const std::string& name, const std::vector<double>& planes, double r, double k, double shadowRadius,
+                   const Place& place)
+    {
+        Shape shape;
+        shape.name = name;
+        pp_particle* made = nullptr;
+        char why[PP_MESSAGE_SIZE];
+        if (pp_particle_new(planes.data(), planes.size() / 4, r, k, shadowRadius, &made, why, sizeof why) != PP_OK)
+            place.refuse("shape " + name + ": " + why);
+        shape.particle.reset(made, pp_particle_free);
+        pp_mass_properties mass;
+        if (pp_particle_bounding_radius(made, &shape.radius) != PP_OK
+            || pp_particle_mass_properties(made, massTolerance, &mass) != PP_OK)
+            place.refuse("shape " + name + ": its mass properties cannot be computed: scale it to a size near 1");
+        const Eigen::Vector3d centre(mass.centroid);
+        if (centre.norm() > centred * shape.radius)
+            place.refuse("shape " + name + ": its centre of mass is at " + number(centre[0]) + " " + number(centre[1])
+                         + " " + number(centre[2])
+                         + ": move its planes so that it is at the origin (potential_particles.to_lammps does)");
+        const double* inertia = mass.inertia;
+        const double most = std::max({ std::abs(inertia[3]), std::abs(inertia[4]), std::abs(inertia[5]) });
+        if (most > centred * std::max({ inertia[0], inertia[1], inertia[2] }))
+            place.refuse("shape " + name + ": its axes are not principal (product of inertia " + number(most)
+                         + "): turn its planes into principal axes (potential_particles.to_lammps does)");
+        shape.volume = mass.volume;
+        shape.moments = Eigen::Vector3d(inertia);
+        Mark mark;
+        mark.add(planes.data(), planes.size());
+        for (const double number : { r, k, shadowRadius })
+            mark.add(&number, 1);
+        shape.mark = mark.value();
+        return shape;
+    }
 
 } // namespace
 

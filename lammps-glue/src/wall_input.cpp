@@ -19,9 +19,10 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* expected = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, "
-                                 "flat EPS, linear VX VY VZ, rotate X Y Z AX AY AZ PERIOD, or "
-                                 "patch TOL and with it cohesion C, residual FRICTION COHESION, whole STEP";
+    constexpr const char* expected
+        = "expected KN KS FRICTION RESTITUTION, then plane X Y Z NX NY NZ, stl FILE, scale S, "
+          "flat EPS, linear VX VY VZ, rotate X Y Z AX AY AZ PERIOD, or "
+          "patch TOL and with it cohesion C, residual FRICTION COHESION, whole STEP";
 
 } // namespace
 
@@ -108,8 +109,8 @@ FixWall::FixWall(LAMMPS* lmp, int count, char** arguments)
             error->all(FLERR, std::string(refused.what()));
         }
         if (mesh->repeated() > 0 && comm->me == 0)
-            error->warning(FLERR, "{}: {} of the triangles of {} have the corners of another one, and are left out", style,
-                           mesh->repeated(), file);
+            error->warning(FLERR, "{}: {} of the triangles of {} have the corners of another one, and are left out",
+                           style, mesh->repeated(), file);
     }
     if (planes.empty() && !mesh)
         error->all(FLERR, "{}: there is no wall: give plane or stl", style);

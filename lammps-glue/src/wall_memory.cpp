@@ -19,7 +19,7 @@ using Eigen::Vector3d;
 namespace potential_particles {
 namespace {
 
-constexpr const char* otherwise = "another ID, for a wall whose contacts begin anew";
+    constexpr const char* otherwise = "another ID, for a wall whose contacts begin anew";
 
 } // namespace
 
@@ -33,8 +33,8 @@ double FixWall::compute_vector(int n)
 {
     if (n == elastic) {
         for (const WallPatch& one : withoutEnergy)
-            own[elastic] += joint.normalStiffness
-                * one.kept->energy([&](auto... how) { return findPatch(one, how...); });
+            own[elastic]
+                += joint.normalStiffness * one.kept->energy([&](auto... how) { return findPatch(one, how...); });
         withoutEnergy.clear();
     }
     double all = 0;

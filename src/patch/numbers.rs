@@ -60,8 +60,8 @@ impl ErrorBudget {
 }
 
 /// Factors between what a rule shows of its error and the error itself, fitted to random pairs of bodies. Together they
-/// are judged by `PATCH_ROUNDS=20000 cargo test --release --test patch patches_are_within_tolerance_and_estimate` (25 of
-/// 59,539 patches were off by more than twice their estimate: docs/patch.md).
+/// are judged by `PATCH_ROUNDS=20000 cargo test --release --test patch patches_are_within_tolerance_and_estimate` (of
+/// 59,539 patches 25 were off by more than twice their estimate: docs/patch.md).
 pub(super) struct Fitted;
 
 impl Fitted {

@@ -27,7 +27,10 @@ namespace potential_particles {
 
 template <class Base> class BasePart {
 public:
-    explicit BasePart(Base& object) : object(object) { }
+    explicit BasePart(Base& object)
+        : object(object)
+    {
+    }
 
     template <class Archive> void save(Archive& archive, unsigned) const
     {
@@ -86,6 +89,6 @@ namespace serialization {
 }
 
 // In the private part of a class that archives have.
-#define PP_ARCHIVED                                                                                \
-    friend class boost::serialization::access;                                                     \
+#define PP_ARCHIVED                                                                                                    \
+    friend class boost::serialization::access;                                                                         \
     template <class Archive> void serialize(Archive& archive, unsigned);

@@ -47,10 +47,10 @@ static_assert(sizeof(Quaternionr) == 32 && alignof(Quaternionr) == 8);
 // The classes have virtual functions, so offsetof on them is "conditionally supported"; GCC
 // supports it for single inheritance without virtual bases, which is all that occurs here.
 #define PP_ABI_ASSERT(condition, what) static_assert(condition, what)
-#define PP_ABI_SIZE(Class, bytes)                                                                  \
-    PP_ABI_PROBE(Class)                                                                            \
+#define PP_ABI_SIZE(Class, bytes)                                                                                      \
+    PP_ABI_PROBE(Class)                                                                                                \
     PP_ABI_ASSERT(sizeof(Class) == (bytes), "size of " #Class)
-#define PP_ABI_OFFSET(Class, field, bytes)                                                         \
+#define PP_ABI_OFFSET(Class, field, bytes)                                                                             \
     PP_ABI_ASSERT(offsetof(Class, field) == (bytes), "offset of " #Class "::" #field)
 #ifndef PP_ABI_PROBE // probe.cpp has one
 #define PP_ABI_PROBE(Class)

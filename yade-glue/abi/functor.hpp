@@ -23,7 +23,10 @@ class IPhys;
 
 class Functor : public Serializable {
 public:
-    Functor() : scene(nullptr) { }
+    Functor()
+        : scene(nullptr)
+    {
+    }
     ~Functor() override;
     PP_ABI_SERIALIZABLE_OVERRIDES
     virtual std::vector<std::string> getFunctorTypes() const;
@@ -82,9 +85,9 @@ public:
     virtual std::string get2DFunctorType2() const;
 };
 
-using IGeomArguments = boost::mpl::vector<
-    const boost::shared_ptr<Shape>&, const boost::shared_ptr<Shape>&, const State&, const State&,
-    const Vector3r&, const bool&, const boost::shared_ptr<Interaction>&>;
+using IGeomArguments
+    = boost::mpl::vector<const boost::shared_ptr<Shape>&, const boost::shared_ptr<Shape>&, const State&, const State&,
+                         const Vector3r&, const bool&, const boost::shared_ptr<Interaction>&>;
 
 class IGeomFunctor : public Functor2D<Shape, Shape, bool, IGeomArguments> {
 public:
@@ -95,8 +98,8 @@ public:
 };
 PP_ABI_SIZE(IGeomFunctor, 88);
 
-using IPhysArguments = boost::mpl::vector<
-    const boost::shared_ptr<Material>&, const boost::shared_ptr<Material>&, const boost::shared_ptr<Interaction>&>;
+using IPhysArguments = boost::mpl::vector<const boost::shared_ptr<Material>&, const boost::shared_ptr<Material>&,
+                                          const boost::shared_ptr<Interaction>&>;
 
 // Makes the physics of a new contact.
 class IPhysFunctor : public Functor2D<Material, Material, void, IPhysArguments> {

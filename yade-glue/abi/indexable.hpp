@@ -23,12 +23,12 @@ PP_ABI_ASSERT(sizeof(Indexable) == 8, "size of Indexable");
 } // namespace yade
 
 // Order matters where these are new in the primary table, that is in the top classes (Shape, ...).
-#define PP_ABI_INDEX_OVERRIDES                                                                     \
-    int& modifyClassIndex() override;                                                              \
-    const int& getClassIndex() const override;                                                     \
+#define PP_ABI_INDEX_OVERRIDES                                                                                         \
+    int& modifyClassIndex() override;                                                                                  \
+    const int& getClassIndex() const override;                                                                         \
     const int& getBaseClassIndex(int depth) const override;
 
-#define PP_ABI_TOP_INDEX_OVERRIDES                                                                 \
-    PP_ABI_INDEX_OVERRIDES                                                                         \
-    const int& getMaxCurrentlyUsedClassIndexOfKin() const override;                                \
+#define PP_ABI_TOP_INDEX_OVERRIDES                                                                                     \
+    PP_ABI_INDEX_OVERRIDES                                                                                             \
+    const int& getMaxCurrentlyUsedClassIndexOfKin() const override;                                                    \
     void incrementMaxCurrentlyUsedClassIndexOfKin() override;

@@ -4,16 +4,16 @@
 // whose virtual table the compiler writes from our declaration. Compiled and examined, never run.
 
 // The destructor, defined here, is what makes the compiler write the table into this file.
-#define PP_ABI_PROBE(Class)                                                                        \
-    namespace abi_probe {                                                                          \
-        struct Class : yade::Class {                                                               \
-            ~Class() override;                                                                     \
-        };                                                                                         \
-        Class::~Class() = default;                                                                 \
-    }                                                                                              \
-    extern "C" {                                                                                   \
-    extern __attribute__((visibility("default"))) const unsigned long abi_size_##Class;            \
-    const unsigned long abi_size_##Class = sizeof(yade::Class);                                    \
+#define PP_ABI_PROBE(Class)                                                                                            \
+    namespace abi_probe {                                                                                              \
+    struct Class : yade::Class {                                                                                       \
+        ~Class() override;                                                                                             \
+    };                                                                                                                 \
+    Class::~Class() = default;                                                                                         \
+    }                                                                                                                  \
+    extern "C" {                                                                                                       \
+    extern __attribute__((visibility("default"))) const unsigned long abi_size_##Class;                                \
+    const unsigned long abi_size_##Class = sizeof(yade::Class);                                                        \
     }
 
 #include "body.hpp"

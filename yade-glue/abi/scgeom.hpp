@@ -46,9 +46,8 @@ public:
     // and sets shearInc from the velocities at contactPoint. Not new: the stored normal must still
     // be that of the last step.
     void precompute(const State& state1, const State& state2, const Scene* scene,
-                    const boost::shared_ptr<Interaction>& interaction,
-                    const Vector3r& currentNormal, bool isNew, const Vector3r& shift2,
-                    bool avoidGranularRatcheting);
+                    const boost::shared_ptr<Interaction>& interaction, const Vector3r& currentNormal, bool isNew,
+                    const Vector3r& shift2, bool avoidGranularRatcheting);
 
     // Carries a vector of the tangent plane along with the turn of the frame that precompute() found.
     Vector3r& rotate(Vector3r& tangent) const;

@@ -47,11 +47,11 @@ PP_ABI_SIZE(Serializable, 24);
 } // namespace yade
 
 // The functions that every concrete class of YADE overrides.
-#define PP_ABI_SERIALIZABLE_OVERRIDES                                                              \
-    std::string getBaseClassName(unsigned int index = 0) const override;                           \
-    int getBaseClassNumber() const override;                                                       \
-    std::string getClassName() const override;                                                     \
-    void pySetAttr(const std::string& key, const boost::python::object& value) override;           \
-    boost::python::dict pyDict() const override;                                                   \
-    void callPostLoad() override;                                                                  \
+#define PP_ABI_SERIALIZABLE_OVERRIDES                                                                                  \
+    std::string getBaseClassName(unsigned int index = 0) const override;                                               \
+    int getBaseClassNumber() const override;                                                                           \
+    std::string getClassName() const override;                                                                         \
+    void pySetAttr(const std::string& key, const boost::python::object& value) override;                               \
+    boost::python::dict pyDict() const override;                                                                       \
+    void callPostLoad() override;                                                                                      \
     void pyRegisterClass(boost::python::object scope) override;

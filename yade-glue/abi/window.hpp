@@ -10,8 +10,8 @@ namespace yade {
 
 struct GLViewInfo;
 
-using GlShapeArguments =
-    boost::mpl::vector<const boost::shared_ptr<Shape>&, const boost::shared_ptr<State>&, bool, const GLViewInfo&>;
+using GlShapeArguments
+    = boost::mpl::vector<const boost::shared_ptr<Shape>&, const boost::shared_ptr<State>&, bool, const GLViewInfo&>;
 
 class GlShapeFunctor : public Functor1D<Shape, void, GlShapeArguments> {
 public:

@@ -21,8 +21,7 @@ bool BoundWatch::guards(const yade::Scene& scene)
     const auto& engines = scene.engines;
     return std::any_of(engines.begin(), engines.end(), [&](const auto& engine) {
         const yade::Engine* one = engine.get();
-        return one && typeid(*one) == typeid(BoundWatch)
-            && static_cast<const BoundWatch*>(one)->lastStep == scene.iter;
+        return one && typeid(*one) == typeid(BoundWatch) && static_cast<const BoundWatch*>(one)->lastStep == scene.iter;
     });
 }
 
@@ -77,10 +76,10 @@ bool BoundWatch::someBodyIsOutside()
 
 BoundWatch::Kind BoundWatch::kindOf(const yade::Shape& shape)
 {
-    return hasCorners(shape)                                        ? Kind::corners
-        : typeid(shape) == typeid(ConicPotentialParticle)           ? Kind::conic
-        : dynamic_cast<const yade::PotentialParticle*>(&shape)      ? Kind::potential
-                                                                    : Kind::other;
+    return hasCorners(shape)                                   ? Kind::corners
+        : typeid(shape) == typeid(ConicPotentialParticle)      ? Kind::conic
+        : dynamic_cast<const yade::PotentialParticle*>(&shape) ? Kind::potential
+                                                               : Kind::other;
 }
 
 bool BoundWatch::isOutside(const yade::Body& body, Inside& known) const
@@ -172,9 +171,9 @@ void BoundWatch::pyRegisterClass(py::object scope)
     checkPyClassRegistersItself(Entry<BoundWatch>::name);
     const py::scope inside(scope);
     const auto style = docstringStyle();
-    registerClass<BoundWatch, yade::GlobalEngine>()
-        .add_property("requests", +[](const BoundWatch& watch) { return watch.requests; },
-                      "How often the collider was asked to run since the scene was made or loaded.");
+    registerClass<BoundWatch, yade::GlobalEngine>().add_property(
+        "requests", +[](const BoundWatch& watch) { return watch.requests; },
+        "How often the collider was asked to run since the scene was made or loaded.");
 }
 
 template <class Archive> void BoundWatch::serialize(Archive& archive, unsigned version)

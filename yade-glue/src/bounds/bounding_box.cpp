@@ -108,8 +108,8 @@ Box boxAsTurned(const boost::shared_ptr<yade::Shape>& shape, const yade::Se3r& a
     Box box { centre, centre };
     for (int i = 0; i < 3; ++i) {
         const Vector3r u = cell->unshearTrsf.row(i);
-        const Box along = outline.turned(
-            (Quaternionr::FromTwoVectors(u, Vector3r::UnitX()) * at.orientation).normalized());
+        const Box along
+            = outline.turned((Quaternionr::FromTwoVectors(u, Vector3r::UnitX()) * at.orientation).normalized());
         box.lower[i] += u.norm() * along.lower[0];
         box.upper[i] += u.norm() * along.upper[0];
     }
@@ -149,8 +149,8 @@ Box boxOfCorners(const yade::Shape& shape, const yade::Se3r& at, const yade::Sce
     } else if (const StandIn* kind = standInOf(shape)) {
         const StandIn::Hull hull = kind->hullOf(kind->measuresOf(shape));
         std::for_each_n(hull.points.begin(), hull.count, add);
-        const Vector3r reach = hull.radius
-            * (cell ? Vector3r(cell->unshearTrsf.rowwise().norm()) : Vector3r::Ones().eval());
+        const Vector3r reach
+            = hull.radius * (cell ? Vector3r(cell->unshearTrsf.rowwise().norm()) : Vector3r::Ones().eval());
         box.lower -= reach;
         box.upper += reach;
     }

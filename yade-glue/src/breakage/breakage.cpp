@@ -224,21 +224,20 @@ void Breakage::pyRegisterClass(py::object scope)
             text);
     });
     const auto fromPackage = [&](const char* name, const char* text) {
-        registered.add_property(
-            name, pythonFunction<py::object, const py::object&>([name](const py::object& engine) {
-                return package().attr(name)(engine);
-            }),
-            text);
+        registered.add_property(name, pythonFunction<py::object, const py::object&>([name](const py::object& engine) {
+                                    return package().attr(name)(engine);
+                                }),
+                                text);
     };
     fromPackage("history", "Structured array, one row for each body that broke: potential_particles.breakage.HISTORY.");
     fromPackage("parents", "{id of a piece: id of the body that broke}.");
     fromPackage("generations", "{id of a piece: how often what it was part of has broken}; others have none.");
     // YADE keeps each list that it makes of a vector: pieces are many, and go in and out as numbers.
-    registered.def("addRecord", pythonFunction<void, Breakage&, const py::object&>(
-                                    [](Breakage& engine, const py::object& row) {
-                                        engine.records.insert(engine.records.end(), py::stl_input_iterator<double>(row),
-                                                              py::stl_input_iterator<double>());
-                                    }),
+    registered.def("addRecord",
+                   pythonFunction<void, Breakage&, const py::object&>([](Breakage& engine, const py::object& row) {
+                       engine.records.insert(engine.records.end(), py::stl_input_iterator<double>(row),
+                                             py::stl_input_iterator<double>());
+                   }),
                    "Adds a row of `history`.");
     const auto recordBytes = [](const Breakage& engine) { return bytes(engine.records); };
     registered.def("recordBytes", pythonFunction<py::object, const Breakage&>(recordBytes),

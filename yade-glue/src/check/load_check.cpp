@@ -151,16 +151,19 @@ namespace {
     };
 
 // A field that Python has by its own name, and one that it has by another.
-#define PP_FIELD(name) .field(#name, [](auto& seen) -> auto& { return seen.name; })
-#define PP_FIELD_AT(name, place) .field(#name, [](auto& seen) -> auto& { return seen.place; })
+#define PP_FIELD(name)                                                                                                 \
+    .field(                                                                                                            \
+        #name, [](auto& seen) -> auto& { return seen.name; })
+#define PP_FIELD_AT(name, place)                                                                                       \
+    .field(                                                                                                            \
+        #name, [](auto& seen) -> auto& { return seen.place; })
 
     void checkShape(Differences& found)
     {
-        Probe<PotentialParticle>(found, "PotentialParticle")
-            PP_FIELD(color) PP_FIELD(wire) PP_FIELD(highlight) PP_FIELD(id) PP_FIELD(isBoundary)
-            PP_FIELD(fixedNormal) PP_FIELD(boundaryNormal) PP_FIELD(AabbMinMax) PP_FIELD(minAabb)
-            PP_FIELD(maxAabb) PP_FIELD(minAabbRotated) PP_FIELD(maxAabbRotated) PP_FIELD(r) PP_FIELD(R)
-            PP_FIELD(k) PP_FIELD(vertices) PP_FIELD(a) PP_FIELD(b) PP_FIELD(c) PP_FIELD(d);
+        Probe<PotentialParticle>(found, "PotentialParticle") PP_FIELD(color) PP_FIELD(wire) PP_FIELD(highlight)
+            PP_FIELD(id) PP_FIELD(isBoundary) PP_FIELD(fixedNormal) PP_FIELD(boundaryNormal) PP_FIELD(AabbMinMax)
+                PP_FIELD(minAabb) PP_FIELD(maxAabb) PP_FIELD(minAabbRotated) PP_FIELD(maxAabbRotated) PP_FIELD(r)
+                    PP_FIELD(R) PP_FIELD(k) PP_FIELD(vertices) PP_FIELD(a) PP_FIELD(b) PP_FIELD(c) PP_FIELD(d);
     }
 
     void checkPrimitives(Differences& found)
@@ -181,49 +184,49 @@ namespace {
     void checkState(Differences& found)
     {
         Probe<State> probe(found, "State");
-        probe PP_FIELD_AT(pos, se3.position) PP_FIELD(pos) PP_FIELD_AT(ori, se3.orientation) PP_FIELD(ori)
-            PP_FIELD(vel) PP_FIELD(mass) PP_FIELD(angVel) PP_FIELD(angMom) PP_FIELD(inertia) PP_FIELD(refPos) PP_FIELD(refOri)
-            PP_FIELD(isDamped) PP_FIELD(densityScaling);
+        probe PP_FIELD_AT(pos, se3.position) PP_FIELD(pos) PP_FIELD_AT(ori, se3.orientation) PP_FIELD(ori) PP_FIELD(vel)
+            PP_FIELD(mass) PP_FIELD(angVel) PP_FIELD(angMom) PP_FIELD(inertia) PP_FIELD(refPos) PP_FIELD(refOri)
+                PP_FIELD(isDamped) PP_FIELD(densityScaling);
     }
 
     void checkGeometry(Differences& found)
     {
-        Probe<ScGeom>(found, "ScGeom")
-            PP_FIELD(normal) PP_FIELD(contactPoint) PP_FIELD(refR1) PP_FIELD(refR2)
-            PP_FIELD_AT(refR1, radius1) PP_FIELD_AT(refR2, radius2) PP_FIELD(penetrationDepth)
-            PP_FIELD(shearInc);
+        Probe<ScGeom>(found, "ScGeom") PP_FIELD(normal) PP_FIELD(contactPoint) PP_FIELD(refR1) PP_FIELD(refR2)
+            PP_FIELD_AT(refR1, radius1) PP_FIELD_AT(refR2, radius2) PP_FIELD(penetrationDepth) PP_FIELD(shearInc);
     }
 
     void checkPhysics(Differences& found)
     {
-        Probe<KnKsPhys>(found, "KnKsPhys")
-            PP_FIELD(kn) PP_FIELD(normalForce) PP_FIELD(ks) PP_FIELD(shearForce)
+        Probe<KnKsPhys>(found, "KnKsPhys") PP_FIELD(kn) PP_FIELD(normalForce) PP_FIELD(ks) PP_FIELD(shearForce)
             PP_FIELD(tangensOfFrictionAngle)
 #if PP_YADE_FRICT_PHYS_EXTRA
-            PP_FIELD(frictDissip)
+                PP_FIELD(frictDissip)
 #endif
-            PP_FIELD(frictionAngle) PP_FIELD(viscousDamping) PP_FIELD(maxClosure) PP_FIELD(u_elastic)
-            PP_FIELD(brittleLength) PP_FIELD(knVol) PP_FIELD(ksVol) PP_FIELD(kn_i) PP_FIELD(ks_i)
-            PP_FIELD(normalViscous) PP_FIELD(shearViscous) PP_FIELD(intactRock) PP_FIELD(jointType)
-            PP_FIELD(shearDir) PP_FIELD(prevNormal) PP_FIELD(warmstart) PP_FIELD(ptOnP1) PP_FIELD(ptOnP2)
-            PP_FIELD(cumulative_us) PP_FIELD(mobilizedShear) PP_FIELD(contactArea) PP_FIELD(prevSigma)
-            PP_FIELD(jointLength) PP_FIELD(shearIncrementForCD) PP_FIELD(useFaceProperties) PP_FIELD(cohesion)
-            PP_FIELD(tension) PP_FIELD(cohesionBroken) PP_FIELD(tensionBroken) PP_FIELD(phi_b) PP_FIELD(phi_r)
-            PP_FIELD(u_cumulative) PP_FIELD(initialShearDir) PP_FIELD(effective_phi) PP_FIELD(isSliding);
+                    PP_FIELD(frictionAngle) PP_FIELD(viscousDamping) PP_FIELD(maxClosure) PP_FIELD(u_elastic)
+                        PP_FIELD(brittleLength) PP_FIELD(knVol) PP_FIELD(ksVol) PP_FIELD(kn_i) PP_FIELD(ks_i)
+                            PP_FIELD(normalViscous) PP_FIELD(shearViscous) PP_FIELD(intactRock) PP_FIELD(jointType)
+                                PP_FIELD(shearDir) PP_FIELD(prevNormal) PP_FIELD(warmstart) PP_FIELD(ptOnP1)
+                                    PP_FIELD(ptOnP2) PP_FIELD(cumulative_us) PP_FIELD(mobilizedShear)
+                                        PP_FIELD(contactArea) PP_FIELD(prevSigma) PP_FIELD(jointLength)
+                                            PP_FIELD(shearIncrementForCD) PP_FIELD(useFaceProperties) PP_FIELD(cohesion)
+                                                PP_FIELD(tension) PP_FIELD(cohesionBroken) PP_FIELD(tensionBroken)
+                                                    PP_FIELD(phi_b) PP_FIELD(phi_r) PP_FIELD(u_cumulative)
+                                                        PP_FIELD(initialShearDir) PP_FIELD(effective_phi)
+                                                            PP_FIELD(isSliding);
     }
 
     void checkMaterial(Differences& found)
     {
-        Probe<yade::FrictMat>(found, "FrictMat")
-            PP_FIELD(id) PP_FIELD(label) PP_FIELD(density) PP_FIELD(young) PP_FIELD(poisson) PP_FIELD(frictionAngle);
+        Probe<yade::FrictMat>(found, "FrictMat") PP_FIELD(id) PP_FIELD(label) PP_FIELD(density) PP_FIELD(young)
+            PP_FIELD(poisson) PP_FIELD(frictionAngle);
     }
 
     void checkInteraction(Differences& found)
     {
         using I = Interaction;
         Probe<I> probe(found, "Interaction");
-        probe PP_FIELD(isActive) PP_FIELD(id1) PP_FIELD(id2) PP_FIELD(iterMadeReal)
-            PP_FIELD(cellDist) PP_FIELD(iterBorn);
+        probe PP_FIELD(isActive) PP_FIELD(id1) PP_FIELD(id2) PP_FIELD(iterMadeReal) PP_FIELD(cellDist)
+            PP_FIELD(iterBorn);
         I& interaction = probe.instance();
         if (interaction.geom || interaction.phys || !interaction.functorCache.geomExists)
             found.push_back("Interaction: a new one does not look empty at geom, phys, functorCache");
@@ -242,9 +245,8 @@ namespace {
 
     void checkBound(Differences& found)
     {
-        Probe<Aabb>(found, "Aabb")
-            PP_FIELD(lastUpdateIter) PP_FIELD(refPos) PP_FIELD(sweepLength) PP_FIELD(color) PP_FIELD(min)
-            PP_FIELD(max);
+        Probe<Aabb>(found, "Aabb") PP_FIELD(lastUpdateIter) PP_FIELD(refPos) PP_FIELD(sweepLength) PP_FIELD(color)
+            PP_FIELD(min) PP_FIELD(max);
         Probe<BoundFunctor> probe(found, "PotentialParticle2AABB");
         probe PP_FIELD(label);
         if (probe.instance().get1DFunctorType1() != "PotentialParticle")
@@ -262,12 +264,11 @@ namespace {
     void checkLaws(Differences& found)
     {
         using Cundall = Law2_ScGeom_FrictPhys_CundallStrack;
-        Probe<Cundall>(found, "Law2_ScGeom_FrictPhys_CundallStrack")
-            PP_FIELD(neverErase) PP_FIELD(sphericalBodies) PP_FIELD(traceEnergy);
+        Probe<Cundall>(found, "Law2_ScGeom_FrictPhys_CundallStrack") PP_FIELD(neverErase) PP_FIELD(sphericalBodies)
+            PP_FIELD(traceEnergy);
         using KnKs = Law2_SCG_KnKsPhys_KnKsLaw;
-        Probe<KnKs>(found, "Law2_SCG_KnKsPhys_KnKsLaw")
-            PP_FIELD(neverErase) PP_FIELD(traceEnergy) PP_FIELD(Talesnick) PP_FIELD(allowBreakage)
-            PP_FIELD(initialOverlapDistance) PP_FIELD(allowViscousAttraction);
+        Probe<KnKs>(found, "Law2_SCG_KnKsPhys_KnKsLaw") PP_FIELD(neverErase) PP_FIELD(traceEnergy) PP_FIELD(Talesnick)
+            PP_FIELD(allowBreakage) PP_FIELD(initialOverlapDistance) PP_FIELD(allowViscousAttraction);
     }
 
     // A functor for two classes lies in the dispatcher's list, and in its matrix at their indices.
@@ -284,8 +285,8 @@ namespace {
         const Dispatcher& seen = py::extract<Dispatcher&>(dispatcher)();
         const auto row = static_cast<std::size_t>(py::extract<const First&>(one)().getClassIndex());
         const auto column = static_cast<std::size_t>(py::extract<const Second&>(other)().getClassIndex());
-        const bool listed = seen.functors.size() == 1 && seen.functors[0]
-            && seen.functors[0]->getClassName() == functor;
+        const bool listed
+            = seen.functors.size() == 1 && seen.functors[0] && seen.functors[0]->getClassName() == functor;
         if (!listed || row >= seen.callBacks.size() || column >= seen.callBacks[row].size()
             || seen.callBacks[row][column] != seen.functors[0] || row >= seen.callBacksInfo.size()
             || column >= seen.callBacksInfo[row].size() || seen.callBacksInfo[row][column] != 0)
@@ -305,12 +306,10 @@ namespace {
 
     void checkBody(Differences& found)
     {
-        Probe<Body>(found, "Body")
-            PP_FIELD(id) PP_FIELD_AT(mask, groupMask) PP_FIELD(flags) PP_FIELD(subdomain)
+        Probe<Body>(found, "Body") PP_FIELD(id) PP_FIELD_AT(mask, groupMask) PP_FIELD(flags) PP_FIELD(subdomain)
             .pointer("state", "State", &Body::state)
             .pointer("shape", "PotentialParticle", &Body::shape)
-            .pointer("bound", "Aabb", &Body::bound)
-            PP_FIELD(clumpId) PP_FIELD(iterBorn) PP_FIELD(timeBorn);
+            .pointer("bound", "Aabb", &Body::bound) PP_FIELD(clumpId) PP_FIELD(iterBorn) PP_FIELD(timeBorn);
     }
 
     void checkScene(Differences& found)

@@ -59,11 +59,13 @@ struct ContactSettings {
         visit("carryTolerance", &S::carryTolerance,
               "To what part of the smaller particle's size the point of a contact has to be known that is carried on "
               "from the "
-              "last step without a solution from the planes; 0: every contact is solved in every step.", 1);
+              "last step without a solution from the planes; 0: every contact is solved in every step.",
+              1);
         visit("patch", &S::patch,
               "Whether the contact patch decides: contactPoint is then its centre of pressure, normal the direction of "
               "the force of its "
-              "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.", 2);
+              "pressure, penetrationDepth that force over stiffness and area, KnKsPhys.contactArea the area.",
+              2);
         visit("patchTolerance", &S::patchTolerance, "Relative error allowed in the patch's force and area.", 2);
         visit("calContactArea", &S::calContactArea,
               "Whether KnKsPhys.contactArea is computed; otherwise it is 1 (with twoDimension: unitWidth2D).");
@@ -80,18 +82,24 @@ struct ContactSettings {
         visit("interactionDistance", &S::interactionDistance,
               "Particles whose gap along the normal is at most this interact, with penetrationDepth = -gap: for laws "
               "that hold them together. The collider "
-              "must see such pairs (verletDist of half of it, with BoundWatch).", 3);
+              "must see such pairs (verletDist of half of it, with BoundWatch).",
+              3);
         visit("rotations", &S::rotations,
               "Whether the geometry is YADE's ScGeom6D, with bending and twist, for laws that ask for it "
               "(Law2_ScGeom6D_...); penetrationDepth "
-              "is then -gap of particles that have come apart. Pairs are solved from nothing in each step.", 3);
+              "is then -gap of particles that have come apart. Pairs are solved from nothing in each step.",
+              3);
     }
 };
 
 // One value of all settings, checked. Never changes, so threads may share it.
 struct AcceptedSettings {
     // Throws as parsed() does.
-    explicit AcceptedSettings(const ContactSettings& settings) : given(settings), library(settings.parsed()) { }
+    explicit AcceptedSettings(const ContactSettings& settings)
+        : given(settings)
+        , library(settings.parsed())
+    {
+    }
 
     const ContactSettings given;
     const pp_settings library;

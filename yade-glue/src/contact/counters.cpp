@@ -48,7 +48,10 @@ namespace {
 
     // The same number for all functors.
     struct Loan {
-        explicit Loan(std::size_t limit) : row(Lender::instance().take(limit)) { }
+        explicit Loan(std::size_t limit)
+            : row(Lender::instance().take(limit))
+        {
+        }
         ~Loan() { Lender::instance().giveBack(row); }
         Loan(const Loan&) = delete;
         Loan& operator=(const Loan&) = delete;
@@ -59,7 +62,11 @@ namespace {
 } // namespace
 
 // On the heap: Boost's archives make functors with plain operator new.
-Counters::Counters() : rows(new Row[rowCount]) { rows[rowCount - 1].shared = true; }
+Counters::Counters()
+    : rows(new Row[rowCount])
+{
+    rows[rowCount - 1].shared = true;
+}
 
 Counters::Row& Counters::ofThisThread()
 {

@@ -80,7 +80,8 @@ private:
 // Adds the time from here to the end of the scope, if asked.
 class Stopwatch {
 public:
-    Stopwatch(Counters::Row& row, bool running) : row(running ? &row : nullptr)
+    Stopwatch(Counters::Row& row, bool running)
+        : row(running ? &row : nullptr)
     {
         if (running)
             begin = Clock::now();
@@ -88,8 +89,9 @@ public:
     ~Stopwatch()
     {
         if (row)
-            row->add(Count::nanoseconds, static_cast<std::uint64_t>(
-                std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()));
+            row->add(Count::nanoseconds,
+                     static_cast<std::uint64_t>(
+                         std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - begin).count()));
     }
     Stopwatch(const Stopwatch&) = delete;
     Stopwatch& operator=(const Stopwatch&) = delete;

@@ -63,9 +63,9 @@ void FacetMesh::see(const yade::Body& facet, const BoundaryPoints& vertices)
     if (id >= built.size() || moved.load(std::memory_order_relaxed) == rests)
         return;
     const double weld = weldOf(vertices);
-    if (std::equal(vertices.begin(), vertices.end(), built[id].begin(), [weld](const Vector3r& one, const Vector3r& other) {
-            return (one - other).squaredNorm() <= weld * weld;
-        }))
+    if (std::equal(
+            vertices.begin(), vertices.end(), built[id].begin(),
+            [weld](const Vector3r& one, const Vector3r& other) { return (one - other).squaredNorm() <= weld * weld; }))
         return;
     const bool atRest = facet.state->vel == Vector3r::Zero() && facet.state->angVel == Vector3r::Zero();
     moved.store(atRest ? rests : moves, std::memory_order_relaxed);

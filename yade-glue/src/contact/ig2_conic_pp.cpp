@@ -157,8 +157,8 @@ struct Ig2_ConicPP_ConicPP_ScGeom::Pair : PairInScene {
 };
 
 bool Ig2_ConicPP_ConicPP_ScGeom::go(const boost::shared_ptr<Shape>& cm1, const boost::shared_ptr<Shape>& cm2,
-                                    const State& state1, const State& state2, const Vector3r& shift2,
-                                    const bool& force, const boost::shared_ptr<Interaction>& interaction) noexcept
+                                    const State& state1, const State& state2, const Vector3r& shift2, const bool& force,
+                                    const boost::shared_ptr<Interaction>& interaction) noexcept
 {
     return served(state1, state2, shift2, force, interaction, nullptr, [&](const PairInScene& of) {
         const BodyInStep *body1 = nullptr, *body2 = nullptr;
@@ -185,7 +185,7 @@ bool Ig2_ConicPP_ConicPP_ScGeom::goInLoop(Step& step, Counters::Row& counts, Bod
                                           PairInStep& pairInStep,
                                           const boost::shared_ptr<Interaction>& interaction) noexcept
 {
-    const boost::shared_ptr<Shape> &cm1 = *body1.shape, &cm2 = *body2.shape;
+    const boost::shared_ptr<Shape>&cm1 = *body1.shape, &cm2 = *body2.shape;
     const Vector3r shift2 = Vector3r::Zero();
     return served(*body1.state, *body2.state, shift2, false, interaction, &counts, [&](const PairInScene& of) {
         step.look(body1, cm1, of.state1);
@@ -225,10 +225,11 @@ void Ig2_ConicPP_ConicPP_ScGeom::lookAtDepth(const Interaction& pair, double rou
         return;
     counts.add(Count::deepOverlaps);
     if (!saidDepth.exchange(true, std::memory_order_relaxed))
-        std::fprintf(stderr,
-                     "potential_particles: step %ld: bodies %d and %d overlap by %.3g of the rounding radius r: start them "
-                     "apart (pack), take a stiffer contact, or a larger r (deepOverlaps of the functor counts on)\n",
-                     scene ? scene->iter : 0L, pair.id1, pair.id2, overlap / rounding);
+        std::fprintf(
+            stderr,
+            "potential_particles: step %ld: bodies %d and %d overlap by %.3g of the rounding radius r: start them "
+            "apart (pack), take a stiffer contact, or a larger r (deepOverlaps of the functor counts on)\n",
+            scene ? scene->iter : 0L, pair.id1, pair.id2, overlap / rounding);
 }
 
 // The pair is solved as it comes, so there is nothing to reverse: both shapes are of one kind, and
@@ -249,7 +250,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::contact(Pair& pair)
     }
     for (const auto* particle : { pair.particle1, pair.particle2 }) {
         if (!particle->handle()) {
-            fail(pair, (particle == pair.particle1 ? "shape of the first body: " : "shape of the second body: ")
+            fail(pair,
+                 (particle == pair.particle1 ? "shape of the first body: " : "shape of the second body: ")
                      + particle->refusal());
             return keep(pair);
         }
@@ -306,8 +308,8 @@ bool Ig2_ConicPP_ConicPP_ScGeom::acrossGap(Pair& pair)
         return keep(pair);
     }
     const Vector3r point(found.point), normal(found.normal);
-    const double gap = gapBefore(*pair.particle1, pose1, point, -normal)
-        + gapBefore(*pair.particle2, pose2, point, normal);
+    const double gap
+        = gapBefore(*pair.particle1, pose1, point, -normal) + gapBefore(*pair.particle2, pose2, point, normal);
     if (!std::isfinite(gap) || (!pair.real && gap > pair.settings.given.interactionDistance)) {
         pair.noteApart(0);
         return leaveApart(pair);

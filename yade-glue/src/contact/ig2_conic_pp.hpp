@@ -63,8 +63,7 @@ protected:
     // it throws is reported, and the pair stays as it is. counts: null for this thread's.
     template <class Answer>
     bool served(const yade::State& state1, const yade::State& state2, const yade::Vector3r& shift2, bool force,
-                const boost::shared_ptr<yade::Interaction>& interaction, Counters::Row* counts,
-                Answer answer) noexcept;
+                const boost::shared_ptr<yade::Interaction>& interaction, Counters::Row* counts, Answer answer) noexcept;
     // Each ends the step for a pair; true if YADE is to go on with it. The first for one that does not touch, the
     // second for one of which that is not known.
     bool leaveApart(PairInScene& pair);

@@ -88,21 +88,20 @@ void Ig2_ConicPP_ConicPP_ScGeom::pyRegisterClass(py::object scope)
 
     ContactSettings::eachAttribute([&](const char* name, auto member, const char* attributeDoc, unsigned = 0) {
         using Value = typename Pointed<decltype(member)>::type;
-        registered.add_property(name,
-                                pythonFunction<Value, const Functor&>(
-                                    [member](const Functor& functor) { return functor.written.*member; }),
-                                pythonFunction<void, Functor&, const Value&>(
-                                    [member](Functor& functor, const Value& value) {
-                                        functor.written.*member = value;
-                                        functor.settle();
-                                    }),
-                                attributeDoc);
+        registered.add_property(
+            name,
+            pythonFunction<Value, const Functor&>([member](const Functor& functor) { return functor.written.*member; }),
+            pythonFunction<void, Functor&, const Value&>([member](Functor& functor, const Value& value) {
+                functor.written.*member = value;
+                functor.settle();
+            }),
+            attributeDoc);
     });
 
     const auto count = [&](const char* name, Count what, const char* attributeDoc) {
-        registered.add_property(name,
-                                pythonFunction<std::uint64_t, const Functor&>(
-                                    [what](const Functor& functor) { return functor.counters.total(what); }),
+        registered.add_property(name, pythonFunction<std::uint64_t, const Functor&>([what](const Functor& functor) {
+                                    return functor.counters.total(what);
+                                }),
                                 attributeDoc);
     };
     count("calls", Count::calls, "Calls so far, pairs of two boundaries excepted.");

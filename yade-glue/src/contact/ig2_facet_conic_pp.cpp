@@ -19,12 +19,12 @@ using yade::Vector3r;
 namespace {
 
     // `state`: of the pair with this triangle, or null.
-pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state,
-                      pp_flat_contact& found)
-{
-    const pp_pose turn = pair.turn();
-    return pp_contact_triangle(pair.particle->handle(), &turn, numbersOf(vertices), &pair.settings.library, state,
-                               &found);
+    pp_status contactWith(const FlatPair& pair, const BoundaryPoints& vertices, pp_pair_state* state,
+                          pp_flat_contact& found)
+    {
+        const pp_pose turn = pair.turn();
+        return pp_contact_triangle(pair.particle->handle(), &turn, numbersOf(vertices), &pair.settings.library, state,
+                                   &found);
     }
 
     TriangleContact contactOf(const FlatPair& pair, const BoundaryPoints& vertices, const pp_flat_contact& found,
@@ -148,9 +148,8 @@ bool Ig2_Facet_ConicPP_ScGeom::stillLeaves(const FlatPair& pair, const BoundaryP
     const auto number = [](int id) { return static_cast<std::size_t>(id); };
     const Body* const facet = bodies[number(pair.interaction->id1)].get();
     const Body* const particle = bodies[number(pair.interaction->id2)].get();
-    const Body* const neighbour = facet && particle && number(left.to) < bodies.size()
-        ? facetLike(*facet, left.to, *scene)
-        : nullptr;
+    const Body* const neighbour
+        = facet && particle && number(left.to) < bodies.size() ? facetLike(*facet, left.to, *scene) : nullptr;
     if (!neighbour || !interactionOf(*particle, *neighbour))
         return false;
     const BoundaryPoints others = verticesOf(*neighbour->shape, *neighbour->state, pair.centre());

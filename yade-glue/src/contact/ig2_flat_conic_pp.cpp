@@ -109,8 +109,8 @@ void Ig2_Flat_ConicPP::fill(FlatPair& pair, const BoundaryPoints& points, const 
     // For physics made from radii; a boundary has none of its own.
     geom.refR1 = geom.refR2 = pair.particle->boundingRadius();
     pp_patch patch;
-    const bool patched = pair.settings.given.patch
-        && fillPatch(pair, findPatch(pair, points, found, patch), patch, centre, -1.0);
+    const bool patched
+        = pair.settings.given.patch && fillPatch(pair, findPatch(pair, points, found, patch), patch, centre, -1.0);
     if (!patched) {
         geom.contactPoint = centre + Vector3r(found.point);
         geom.penetrationDepth = found.overlap;

@@ -20,10 +20,10 @@ bool Ig2_Other_ConicPP::goReverse(const boost::shared_ptr<yade::Shape>& shape1,
     return go(shape2, shape1, state2, state1, -shift2, force, interaction);
 }
 
-#define PP_STAND_IN(Shape, Version, Doc)                                                           \
-    Ig2_##Shape##_ConicPP_ScGeom::~Ig2_##Shape##_ConicPP_ScGeom() = default;                       \
-    PP_FUNCTOR_2D_DEFINITIONS(Ig2_##Shape##_ConicPP_ScGeom)                                        \
-    PP_PYTHON_AS_BASE(Ig2_##Shape##_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)                    \
+#define PP_STAND_IN(Shape, Version, Doc)                                                                               \
+    Ig2_##Shape##_ConicPP_ScGeom::~Ig2_##Shape##_ConicPP_ScGeom() = default;                                           \
+    PP_FUNCTOR_2D_DEFINITIONS(Ig2_##Shape##_ConicPP_ScGeom)                                                            \
+    PP_PYTHON_AS_BASE(Ig2_##Shape##_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)                                        \
     PP_ARCHIVE_AS_BASE(Ig2_##Shape##_ConicPP_ScGeom, Ig2_ConicPP_ConicPP_ScGeom)
 #include "registration/class_table.inc"
 

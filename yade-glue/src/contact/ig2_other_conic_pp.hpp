@@ -18,14 +18,14 @@ public:
 };
 
 // A class for each PP_STAND_IN of the class table. They differ in what the table says of them.
-#define PP_STAND_IN(Shape, Version, Doc)                                                           \
-    class Ig2_##Shape##_ConicPP_ScGeom final : public Ig2_Other_ConicPP {                          \
-    public:                                                                                        \
-        ~Ig2_##Shape##_ConicPP_ScGeom() override;                                                  \
-        PP_FUNCTOR_2D_OVERRIDES                                                                    \
-                                                                                                   \
-    private:                                                                                       \
-        PP_ARCHIVED                                                                                \
+#define PP_STAND_IN(Shape, Version, Doc)                                                                               \
+    class Ig2_##Shape##_ConicPP_ScGeom final : public Ig2_Other_ConicPP {                                              \
+    public:                                                                                                            \
+        ~Ig2_##Shape##_ConicPP_ScGeom() override;                                                                      \
+        PP_FUNCTOR_2D_OVERRIDES                                                                                        \
+                                                                                                                       \
+    private:                                                                                                           \
+        PP_ARCHIVED                                                                                                    \
     };
 #include "registration/class_table.inc"
 

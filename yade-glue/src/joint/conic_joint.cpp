@@ -38,7 +38,8 @@ void ConicJointMat::callPostLoad()
             refuse(name, value, "give a stiffness per area, N/m^3, or 0 to derive it from young");
     if (!(restitution >= leastRestitution && restitution <= 1))
         refuse("restitution", restitution, "it must lie in [0.01, 1]");
-    for (const auto& [name, value] : { std::pair { "cohesion", cohesion }, { "tensileStrength", tensileStrength },
+    for (const auto& [name, value] : { std::pair { "cohesion", cohesion },
+                                       { "tensileStrength", tensileStrength },
                                        { "residualCohesion", residualCohesion } })
         if (!(std::isfinite(value) && value >= 0))
             refuse(name, value, "give a stress, Pa, or 0 for none");

@@ -33,9 +33,10 @@ public:
     template <class Visit> static void eachAttribute(Visit&& visit)
     {
         using M = ConicJointMat;
-        visit("normalStiffness", &M::normalStiffness,
-              "Normal stiffness per area, N/m^3; 0: young over twice the bounding radius of the body. A joint takes the "
-              "harmonic mean of its two bodies.");
+        visit(
+            "normalStiffness", &M::normalStiffness,
+            "Normal stiffness per area, N/m^3; 0: young over twice the bounding radius of the body. A joint takes the "
+            "harmonic mean of its two bodies.");
         visit("shearStiffness", &M::shearStiffness,
               "Shear stiffness per area, N/m^3; 0: poisson times the normal one.");
         visit("restitution", &M::restitution,
@@ -137,10 +138,11 @@ public:
         visit("bondRim", &P::bondRim, "Corners of the bonded area: y and z in turn, axes of the bond, m.", 1);
         visit("bendingMoment", &P::bendingMoment,
               "Moment of the bond on body 2 across the normal, about the centroid, N m.", 1);
-        visit("heldStiffness", &P::heldStiffness,
-              "What the other joints of its bodies take from this one in the next step: its stiffness across, N/m; 0: it "
-              "is new.",
-              2);
+        visit(
+            "heldStiffness", &P::heldStiffness,
+            "What the other joints of its bodies take from this one in the next step: its stiffness across, N/m; 0: it "
+            "is new.",
+            2);
         visit("heldForce", &P::heldForce, "The same: force of the springs across it, N.", 2);
         visit("heldNormal", &P::heldNormal, "The same: normal from body 1 to body 2.", 2);
         visit("heldPoint", &P::heldPoint, "The same: centre of pressure, m.", 2);

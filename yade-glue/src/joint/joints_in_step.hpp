@@ -19,7 +19,8 @@
 namespace potential_particles {
 
 // Of the laws of joints of all loops, since a body may have joints by several. Members of a clump are one body.
-class [[gnu::visibility("hidden")]] JointsInStep {
+class [[gnu::visibility("hidden")]] JointsInStep
+{
 public:
     static JointsInStep& all();
 

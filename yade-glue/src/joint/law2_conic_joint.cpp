@@ -32,8 +32,8 @@ bool Law::go(boost::shared_ptr<yade::IGeom>& geometry, boost::shared_ptr<yade::I
 bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interaction& interaction, BodyPush* onFirst,
               BodyPush* onSecond)
 {
-    const Vector3r shift = scene->isPeriodic ? Vector3r(scene->cell->hSize * interaction.cellDist.cast<double>())
-                                             : Vector3r::Zero();
+    const Vector3r shift
+        = scene->isPeriodic ? Vector3r(scene->cell->hSize * interaction.cellDist.cast<double>()) : Vector3r::Zero();
     auto& geom = static_cast<yade::ScGeom&>(geometry);
     auto& phys = static_cast<ConicJointPhys&>(physics);
     auto* const own = typeid(geom) == typeid(ScGeomConicPP) ? static_cast<ScGeomConicPP*>(&geom) : nullptr;
@@ -49,8 +49,8 @@ bool Law::act(yade::IGeom& geometry, yade::IPhys& physics, const yade::Interacti
 
     const bool apart = geom.penetrationDepth < 0, touches = !apart && own && own->patch().area > 0;
     const auto posed = [&](int which) {
-        const yade::Body& body =
-            *scene->bodies->body[static_cast<std::size_t>(which == 1 ? interaction.id1 : interaction.id2)];
+        const yade::Body& body
+            = *scene->bodies->body[static_cast<std::size_t>(which == 1 ? interaction.id1 : interaction.id2)];
         return PosedBody(body.shape, *body.state, which == 1 ? Vector3r(Vector3r::Zero()) : shift);
     };
     const bool holds = law.step(

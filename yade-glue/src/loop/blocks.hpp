@@ -13,7 +13,10 @@ namespace potential_particles {
 // the last index, and where memory runs out, it is null.
 template <class Element> class Blocks {
 public:
-    Blocks() : blocks(new std::atomic<Element*>[blockCount]()) { }
+    Blocks()
+        : blocks(new std::atomic<Element*>[blockCount]())
+    {
+    }
     ~Blocks()
     {
         for (std::size_t i = 0; i < blockCount; ++i)

@@ -24,7 +24,10 @@ namespace potential_particles {
 // than the values beside it: enough to fetch memory ahead of its use, which does no harm if it is wrong.
 template <class Value> class Guess {
 public:
-    Guess(Value value) : held(value) { }
+    Guess(Value value)
+        : held(value)
+    {
+    }
     operator Value() const noexcept { return held.load(std::memory_order_relaxed); }
     void operator=(Value value) noexcept { held.store(value, std::memory_order_relaxed); }
 

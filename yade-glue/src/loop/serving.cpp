@@ -19,14 +19,14 @@ using yade::Vector3r;
 namespace {
 
     // The functor for a pair of classes, if the dispatcher has met the pair.
-template <class Functor>
-const boost::shared_ptr<Functor>* entry(const yade::FunctorMatrix<Functor>& matrix, int row, int column)
-{
-    if (row < 0 || column < 0 || static_cast<std::size_t>(row) >= matrix.size()
-        || static_cast<std::size_t>(column) >= matrix[static_cast<std::size_t>(row)].size())
-        return nullptr;
-    const auto& found = matrix[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
-    return found ? &found : nullptr;
+    template <class Functor>
+    const boost::shared_ptr<Functor>* entry(const yade::FunctorMatrix<Functor>& matrix, int row, int column)
+    {
+        if (row < 0 || column < 0 || static_cast<std::size_t>(row) >= matrix.size()
+            || static_cast<std::size_t>(column) >= matrix[static_cast<std::size_t>(row)].size())
+            return nullptr;
+        const auto& found = matrix[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
+        return found ? &found : nullptr;
     }
 
     template <class Functor, class First, class Second>
@@ -175,8 +175,8 @@ void Serving::serveAwake(std::size_t place, PairInStep& known, Thread& thread)
     const bool wasReal = pair.hasGeomAndPhys();
     if (!pair.functorCache.phys) {
         const auto &material1 = one.body->material, &material2 = other.body->material;
-        const auto* const functor = material1 && material2 ? entryFor(physics.callBacks, *material1, *material2)
-                                                           : nullptr;
+        const auto* const functor
+            = material1 && material2 ? entryFor(physics.callBacks, *material1, *material2) : nullptr;
         if (!functor) {
             leave(place);
             return;

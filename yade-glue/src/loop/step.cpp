@@ -100,8 +100,8 @@ void Step::lookAtParticle(BodyInStep& body, const boost::shared_ptr<yade::Shape>
         if (!particle->handle() || !position.allFinite() || !isUnit(orientation))
             particle = nullptr;
         const double radius = particle ? particle->boundingRadius() : 0;
-        const double way = (position - body.formerPosition).norm()
-            + radius * wayOfTurn(body.formerOrientation, orientation);
+        const double way
+            = (position - body.formerPosition).norm() + radius * wayOfTurn(body.formerOrientation, orientation);
         const double sum = travelled(body.way.travelled, way);
         // Whether the way since the last look is known, so that it can be added to the sum.
         const bool continues

@@ -93,10 +93,7 @@ public:
     PairInStep* pairAt(std::size_t place) { return pairs.at(place); }
     std::size_t bodyCount() const { return ways.size(); }
     // Whether a pair of gathered bodies is skipped.
-    bool sleeps(const PairInStep& pair)
-    {
-        return pair.sleeps(wayOf(pair.id1), wayOf(pair.id2));
-    }
+    bool sleeps(const PairInStep& pair) { return pair.sleeps(wayOf(pair.id1), wayOf(pair.id2)); }
     const PairInStep* knownPairAt(std::size_t place) const { return pairs.find(place); }
 
     ContactInStep* contactAt(std::size_t place) { return contacts.at(place); }

@@ -31,7 +31,8 @@ namespace {
     {
         const auto& bodies = scene.bodies->body;
         const bool known = id >= 0 && static_cast<std::size_t>(id) < bodies.size();
-        return known && bodies[static_cast<std::size_t>(id)] ? bodies[static_cast<std::size_t>(id)]->state.get() : nullptr;
+        return known && bodies[static_cast<std::size_t>(id)] ? bodies[static_cast<std::size_t>(id)]->state.get()
+                                                             : nullptr;
     }
 
 } // namespace
@@ -46,7 +47,8 @@ void MovingMesh::callPostLoad()
     require(mass >= 0, "mass", text(mass), " must be 0 or more");
     require(mass > 0 || free.empty(), "mass", text(mass), " must be above 0 where axes are free: give mass first");
     require(area >= 0, "area", text(area), " must be 0 or more");
-    require(area > 0 || stress.isZero(), "area", text(area), " must be above 0 where there is a stress: give area first");
+    require(area > 0 || stress.isZero(), "area", text(area),
+            " must be above 0 where there is a stress: give area first");
     require(damping >= 0 && damping < 1, "damping", text(damping), " must lie in [0, 1)");
     require(greatestSpeed >= 0, "greatestSpeed", text(greatestSpeed), " must be 0, for none, or more");
 }
@@ -57,8 +59,8 @@ void MovingMesh::action()
     const Vector3r before = velocity;
     moveFreeAxes();
     // Of the step, with the mean of the velocities before and after it: what leapfrog's kinetic energy changes by.
-    const double work = contactForce.dot(0.5 * (before + velocity)) * scene->dt
-        + contactTorque.dot(angularVelocity) * scene->dt;
+    const double work
+        = contactForce.dot(0.5 * (before + velocity)) * scene->dt + contactTorque.dot(angularVelocity) * scene->dt;
     contactWork += work;
     if (scene->trackEnergy)
         scene->energy->add(-work, "meshWork", placeOfEnergy, false);
@@ -108,9 +110,8 @@ void MovingMesh::moveFreeAxes()
 void MovingMesh::setVelocities()
 {
     const double dt = scene->dt, angle = angularVelocity.norm() * dt;
-    const Eigen::Matrix3d turn = angle > 0
-        ? Eigen::AngleAxisd(angle, angularVelocity.normalized()).toRotationMatrix()
-        : Eigen::Matrix3d::Identity();
+    const Eigen::Matrix3d turn = angle > 0 ? Eigen::AngleAxisd(angle, angularVelocity.normalized()).toRotationMatrix()
+                                           : Eigen::Matrix3d::Identity();
     for (const int id : ids) {
         yade::State* const state = stateOf(*scene, id);
         if (!state)

@@ -70,10 +70,7 @@ std::size_t Definition::hash() const
     return sum;
 }
 
-bool Definition::listsAgree() const
-{
-    return a.size() == b.size() && a.size() == c.size() && a.size() == d.size();
-}
+bool Definition::listsAgree() const { return a.size() == b.size() && a.size() == c.size() && a.size() == d.size(); }
 
 // One particle for all bodies of one shape: the planes of a scene then stay in the caches. Shapes are compared bit for
 // bit.
@@ -119,8 +116,8 @@ Particle::Particle(Definition given)
 
     pp_particle* made = nullptr;
     char message[PP_MESSAGE_SIZE] = "";
-    const pp_status status = pp_particle_new(rows.data(), definition.a.size(), definition.r, definition.k,
-                                             definition.R, &made, message, sizeof message);
+    const pp_status status = pp_particle_new(rows.data(), definition.a.size(), definition.r, definition.k, definition.R,
+                                             &made, message, sizeof message);
     if (status != PP_OK) {
         whyNot = message[0] ? message : pp_status_message(status);
         return;

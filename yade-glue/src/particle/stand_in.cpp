@@ -119,8 +119,8 @@ const StandIn* standInOf(const yade::Shape& shape)
 
 const StandIn* standInOfBase(const yade::Shape& shape)
 {
-    const auto found = std::find_if(std::rbegin(table), std::rend(table),
-                                    [&](const StandIn& one) { return one.isBaseOf(shape); });
+    const auto found
+        = std::find_if(std::rbegin(table), std::rend(table), [&](const StandIn& one) { return one.isBaseOf(shape); });
     return found != std::rend(table) ? &*found : nullptr;
 }
 

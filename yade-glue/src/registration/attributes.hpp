@@ -94,33 +94,33 @@ template <class Class, class Archive> void archiveAttributes(Archive& archive, C
 } // namespace potential_particles
 
 // What a class with such a list overrides. Base: of YADE.
-#define PP_ATTRIBUTE_DEFINITIONS(Class, Base)                                                      \
-    int Class::getBaseClassNumber() const { return 1; }                                            \
-    void Class::pySetAttr(const std::string& key, const py::object& value)                         \
-    {                                                                                              \
-        if (!setAttribute(*this, key, value))                                                      \
-            yade::Base::pySetAttr(key, value);                                                     \
-    }                                                                                              \
-    py::dict Class::pyDict() const                                                                 \
-    {                                                                                              \
-        py::dict attributes = dictOfAttributes(*this);                                             \
-        attributes.update(pyDictCustom());                                                         \
-        attributes.update(yade::Base::pyDict());                                                   \
-        return attributes;                                                                         \
-    }                                                                                              \
-    void Class::pyRegisterClass(py::object scope)                                                  \
-    {                                                                                              \
-        checkPyClassRegistersItself(Entry<Class>::name);                                           \
-        const py::scope inside(scope);                                                             \
-        const auto style = docstringStyle();                                                       \
-        auto registered = registerClass<Class, yade::Base>();                                      \
-        addAttributes<Class>(registered);                                                          \
-    }                                                                                              \
-    template <class Archive> void Class::serialize(Archive& archive, unsigned version)             \
-    {                                                                                              \
-        requireReadable<Class>(version);                                                           \
-        serializeBase<yade::Base>(archive, *this, #Base);                                          \
-        archiveAttributes(archive, *this, version);                                                \
-        if (Archive::is_loading::value)                                                            \
-            callPostLoad();                                                                        \
+#define PP_ATTRIBUTE_DEFINITIONS(Class, Base)                                                                          \
+    int Class::getBaseClassNumber() const { return 1; }                                                                \
+    void Class::pySetAttr(const std::string& key, const py::object& value)                                             \
+    {                                                                                                                  \
+        if (!setAttribute(*this, key, value))                                                                          \
+            yade::Base::pySetAttr(key, value);                                                                         \
+    }                                                                                                                  \
+    py::dict Class::pyDict() const                                                                                     \
+    {                                                                                                                  \
+        py::dict attributes = dictOfAttributes(*this);                                                                 \
+        attributes.update(pyDictCustom());                                                                             \
+        attributes.update(yade::Base::pyDict());                                                                       \
+        return attributes;                                                                                             \
+    }                                                                                                                  \
+    void Class::pyRegisterClass(py::object scope)                                                                      \
+    {                                                                                                                  \
+        checkPyClassRegistersItself(Entry<Class>::name);                                                               \
+        const py::scope inside(scope);                                                                                 \
+        const auto style = docstringStyle();                                                                           \
+        auto registered = registerClass<Class, yade::Base>();                                                          \
+        addAttributes<Class>(registered);                                                                              \
+    }                                                                                                                  \
+    template <class Archive> void Class::serialize(Archive& archive, unsigned version)                                 \
+    {                                                                                                                  \
+        requireReadable<Class>(version);                                                                               \
+        serializeBase<yade::Base>(archive, *this, #Base);                                                              \
+        archiveAttributes(archive, *this, version);                                                                    \
+        if (Archive::is_loading::value)                                                                                \
+            callPostLoad();                                                                                            \
     }

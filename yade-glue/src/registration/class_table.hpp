@@ -16,9 +16,9 @@ namespace potential_particles {
 // The entry of a class.
 template <class Class> struct Entry;
 
-#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                          \
-    template <> struct Entry<Name> {                                                               \
-        static constexpr const char *name = #Name, *base = #Base, *first = First, *second = Second, *doc = Doc; \
+#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                                              \
+    template <> struct Entry<Name> {                                                                                   \
+        static constexpr const char *name = #Name, *base = #Base, *first = First, *second = Second, *doc = Doc;        \
     };
 #include "class_table.inc"
 
@@ -48,20 +48,20 @@ template <class Class> void requireReadable(unsigned version)
 } // namespace potential_particles
 
 // In the class; definitions.hpp has the definitions.
-#define PP_CLASS_OVERRIDES                                                                         \
-    std::string getBaseClassName(unsigned int index = 0) const override;                           \
-    std::string getClassName() const override;                                                     \
+#define PP_CLASS_OVERRIDES                                                                                             \
+    std::string getBaseClassName(unsigned int index = 0) const override;                                               \
+    std::string getClassName() const override;                                                                         \
     void pyRegisterClass(boost::python::object scope) override;
 
-#define PP_FUNCTOR_1D_OVERRIDES                                                                    \
-    PP_CLASS_OVERRIDES                                                                             \
+#define PP_FUNCTOR_1D_OVERRIDES                                                                                        \
+    PP_CLASS_OVERRIDES                                                                                                 \
     std::string get1DFunctorType1() const override;
 
-#define PP_FUNCTOR_2D_TYPES                                                                        \
-    std::string get2DFunctorType1() const override;                                                \
-    std::string get2DFunctorType2() const override;                                                \
+#define PP_FUNCTOR_2D_TYPES                                                                                            \
+    std::string get2DFunctorType1() const override;                                                                    \
+    std::string get2DFunctorType2() const override;                                                                    \
     std::string checkOrder() const override;
 
-#define PP_FUNCTOR_2D_OVERRIDES                                                                    \
-    PP_CLASS_OVERRIDES                                                                             \
+#define PP_FUNCTOR_2D_OVERRIDES                                                                                        \
+    PP_CLASS_OVERRIDES                                                                                                 \
     PP_FUNCTOR_2D_TYPES

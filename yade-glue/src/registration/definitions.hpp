@@ -55,50 +55,50 @@ template <class Class, class Base> PythonClass<Class, Base> registerClass()
 
 } // namespace potential_particles
 
-#define PP_CLASS_DEFINITIONS(Class)                                                                \
-    std::string Class::getClassName() const { return Entry<Class>::name; }                         \
-    std::string Class::getBaseClassName(unsigned int index) const { return index == 0 ? Entry<Class>::base : ""; } \
+#define PP_CLASS_DEFINITIONS(Class)                                                                                    \
+    std::string Class::getClassName() const { return Entry<Class>::name; }                                             \
+    std::string Class::getBaseClassName(unsigned int index) const { return index == 0 ? Entry<Class>::base : ""; }     \
     template <> void enterInFactory<Class>() { registerWithFactory<Class>(); }
 
 // Of a class that YADE's dispatchers know by an index of its own: its constructor calls takeClassIndex. An instance of
 // the base, because that is what knows the index; kept, because the index is a reference.
-#define PP_INDEX_DEFINITIONS(Class, Base)                                                          \
-    int& Class::modifyClassIndex()                                                                 \
-    {                                                                                              \
-        static int index = -1;                                                                     \
-        return index;                                                                              \
-    }                                                                                              \
-    const int& Class::getClassIndex() const { return const_cast<Class*>(this)->modifyClassIndex(); } \
-    const int& Class::getBaseClassIndex(int depth) const                                           \
-    {                                                                                              \
-        static const Base& base = *new Base;                                                       \
-        return depth == 1 ? base.getClassIndex() : base.getBaseClassIndex(depth - 1);              \
+#define PP_INDEX_DEFINITIONS(Class, Base)                                                                              \
+    int& Class::modifyClassIndex()                                                                                     \
+    {                                                                                                                  \
+        static int index = -1;                                                                                         \
+        return index;                                                                                                  \
+    }                                                                                                                  \
+    const int& Class::getClassIndex() const { return const_cast<Class*>(this)->modifyClassIndex(); }                   \
+    const int& Class::getBaseClassIndex(int depth) const                                                               \
+    {                                                                                                                  \
+        static const Base& base = *new Base;                                                                           \
+        return depth == 1 ? base.getClassIndex() : base.getBaseClassIndex(depth - 1);                                  \
     }
 
-#define PP_FUNCTOR_1D_DEFINITIONS(Class)                                                           \
-    PP_CLASS_DEFINITIONS(Class)                                                                    \
+#define PP_FUNCTOR_1D_DEFINITIONS(Class)                                                                               \
+    PP_CLASS_DEFINITIONS(Class)                                                                                        \
     std::string Class::get1DFunctorType1() const { return Entry<Class>::first; }
 
-#define PP_FUNCTOR_2D_DEFINITIONS(Class)                                                           \
-    PP_CLASS_DEFINITIONS(Class)                                                                    \
-    std::string Class::get2DFunctorType1() const { return Entry<Class>::first; }                   \
-    std::string Class::get2DFunctorType2() const { return Entry<Class>::second; }                  \
+#define PP_FUNCTOR_2D_DEFINITIONS(Class)                                                                               \
+    PP_CLASS_DEFINITIONS(Class)                                                                                        \
+    std::string Class::get2DFunctorType1() const { return Entry<Class>::first; }                                       \
+    std::string Class::get2DFunctorType2() const { return Entry<Class>::second; }                                      \
     std::string Class::checkOrder() const { return get2DFunctorType1() + " " + get2DFunctorType2(); }
 
 // Of a class without attributes beyond its base's.
-#define PP_PYTHON_AS_BASE(Class, Base)                                                             \
-    void Class::pyRegisterClass(py::object scope)                                                  \
-    {                                                                                              \
-        checkPyClassRegistersItself(Entry<Class>::name);                                           \
-        const py::scope inside(scope);                                                             \
-        const auto style = docstringStyle();                                                       \
-        registerClass<Class, Base>();                                                              \
+#define PP_PYTHON_AS_BASE(Class, Base)                                                                                 \
+    void Class::pyRegisterClass(py::object scope)                                                                      \
+    {                                                                                                                  \
+        checkPyClassRegistersItself(Entry<Class>::name);                                                               \
+        const py::scope inside(scope);                                                                                 \
+        const auto style = docstringStyle();                                                                           \
+        registerClass<Class, Base>();                                                                                  \
     }
 
 // The same in archives, for a base that is ours: Boost's own way works then.
-#define PP_ARCHIVE_AS_BASE(Class, Base)                                                            \
-    template <class Archive> void Class::serialize(Archive& archive, unsigned version)             \
-    {                                                                                              \
-        requireReadable<Class>(version);                                                           \
-        archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Base);                                        \
+#define PP_ARCHIVE_AS_BASE(Class, Base)                                                                                \
+    template <class Archive> void Class::serialize(Archive& archive, unsigned version)                                 \
+    {                                                                                                                  \
+        requireReadable<Class>(version);                                                                               \
+        archive& BOOST_SERIALIZATION_BASE_OBJECT_NVP(Base);                                                            \
     }

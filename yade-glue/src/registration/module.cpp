@@ -96,9 +96,9 @@ BOOST_PYTHON_MODULE(_glue)
     // Of the class table: the names, and the two shapes that each contact functor serves.
     py::list names;
     py::dict pairs;
-#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                          \
-    names.append(#Name);                                                                           \
-    if (*Second)                                                                                   \
+#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                                              \
+    names.append(#Name);                                                                                               \
+    if (*Second)                                                                                                       \
         pairs[#Name] = py::make_tuple(First, Second);
 #include "class_table.inc"
     py::scope().attr("class_names") = names;

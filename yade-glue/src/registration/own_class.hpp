@@ -13,26 +13,26 @@
 
 // In the global namespace, before the class is declared in namespace potential_particles; the arguments are those of
 // PP_CLASS. What serialize() writes may change with the version alone.
-#define PP_OWN_CLASS(Name, Base, First, Second, Version, Doc)                                      \
-    namespace potential_particles {                                                                \
-        class Name;                                                                                \
-        template <> struct Entry<Name> {                                                           \
-            static constexpr const char *name = #Name, *base = #Base, *doc = Doc;                  \
-            static constexpr const char *first = First, *second = Second;                          \
-        };                                                                                         \
-        template <> void enterInFactory<Name>();                                                   \
-    }                                                                                              \
-    BOOST_CLASS_VERSION(potential_particles::Name, Version)                                        \
+#define PP_OWN_CLASS(Name, Base, First, Second, Version, Doc)                                                          \
+    namespace potential_particles {                                                                                    \
+    class Name;                                                                                                        \
+    template <> struct Entry<Name> {                                                                                   \
+        static constexpr const char *name = #Name, *base = #Base, *doc = Doc;                                          \
+        static constexpr const char *first = First, *second = Second;                                                  \
+    };                                                                                                                 \
+    template <> void enterInFactory<Name>();                                                                           \
+    }                                                                                                                  \
+    BOOST_CLASS_VERSION(potential_particles::Name, Version)                                                            \
     BOOST_CLASS_EXPORT_KEY(potential_particles::Name)
 
 // At the end of the file, in the global namespace: `from module import Name` enters the class into YADE, once the
 // plugin has compared this YADE with what is declared in abi/.
-#define PP_OWN_MODULE(module, Name)                                                                \
-    BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Name)                                        \
-    BOOST_PYTHON_MODULE(module)                                                                    \
-    {                                                                                              \
-        boost::python::import("potential_particles.yade");                                         \
-        potential_particles::enterInFactory<potential_particles::Name>();                          \
-        Singleton<yade::Omega>::instance().buildDynlibDatabase({ #Name });                         \
-        boost::python::scope().attr(#Name) = boost::python::import("yade.wrapper").attr(#Name);    \
+#define PP_OWN_MODULE(module, Name)                                                                                    \
+    BOOST_CLASS_EXPORT_IMPLEMENT(potential_particles::Name)                                                            \
+    BOOST_PYTHON_MODULE(module)                                                                                        \
+    {                                                                                                                  \
+        boost::python::import("potential_particles.yade");                                                             \
+        potential_particles::enterInFactory<potential_particles::Name>();                                              \
+        Singleton<yade::Omega>::instance().buildDynlibDatabase({ #Name });                                             \
+        boost::python::scope().attr(#Name) = boost::python::import("yade.wrapper").attr(#Name);                        \
     }

@@ -77,10 +77,7 @@ double ConicPotentialParticle::pyVolume() const { return massProperties(require(
 
 Vector3r ConicPotentialParticle::pyCentroid() const { return Vector3r(massProperties(require()).centroid); }
 
-Eigen::Matrix3d ConicPotentialParticle::pyInertia() const
-{
-    return matrix(massProperties(require()).inertia);
-}
+Eigen::Matrix3d ConicPotentialParticle::pyInertia() const { return matrix(massProperties(require()).inertia); }
 
 double ConicPotentialParticle::pyBoundingRadius() const
 {
@@ -135,13 +132,12 @@ namespace {
                   Value yade::PotentialParticle::*field, const char* fieldDoc)
     {
         using Shape = ConicPotentialParticle;
-        registered.add_property(
-            name, py::make_getter(field, py::return_value_policy<py::return_by_value>()),
-            pythonFunction<void, Shape&, const Value&>([field](Shape& shape, const Value& value) {
-                set(shape, field, value);
-                shape.settle();
-            }),
-            fieldDoc);
+        registered.add_property(name, py::make_getter(field, py::return_value_policy<py::return_by_value>()),
+                                pythonFunction<void, Shape&, const Value&>([field](Shape& shape, const Value& value) {
+                                    set(shape, field, value);
+                                    shape.settle();
+                                }),
+                                fieldDoc);
     }
 
     // Reading: vectors by reference, as YADE does, so that shape.minAabb[0] = 1 works; lists by value.

@@ -19,8 +19,8 @@ inline const void* classOf(const yade::Shape& shape) { return *reinterpret_cast<
 inline const Particle* particleOf(const boost::shared_ptr<yade::Shape>& shape, const yade::PotentialParticle& pp,
                                   std::shared_ptr<const Particle>& keeper)
 {
-    const auto* own = typeid(pp) == typeid(ConicPotentialParticle) ? static_cast<const ConicPotentialParticle*>(&pp)
-                                                                   : nullptr;
+    const auto* own
+        = typeid(pp) == typeid(ConicPotentialParticle) ? static_cast<const ConicPotentialParticle*>(&pp) : nullptr;
     if (own)
         if (const Particle* particle = own->particle())
             return particle;

@@ -19,7 +19,9 @@ using yade::Vector3r;
 namespace {
 
     constexpr std::array<std::pair<const char*, std::vector<double> PotentialParticle::*>, 4> lists
-        = { { { "a", &PotentialParticle::a }, { "b", &PotentialParticle::b }, { "c", &PotentialParticle::c },
+        = { { { "a", &PotentialParticle::a },
+              { "b", &PotentialParticle::b },
+              { "c", &PotentialParticle::c },
               { "d", &PotentialParticle::d } } };
 
 } // namespace

@@ -84,8 +84,8 @@ namespace {
                 ++change;
             }
             held.erase(held.begin(), std::find_if(held.begin(), held.end(), [this](const Replaced& one) {
-                return one.change + 2 > change;
-            }));
+                           return one.change + 2 > change;
+                       }));
         }
 
         std::mutex mutex;
