@@ -150,7 +150,6 @@ def expected_of(found):
         expected["joint"] = kind, {name: joint[name] for name in joint if name not in ("shearForce", "twistMoment")}
     if "Breakage" not in found:
         expected["engines"] = [one for one in expected["engines"] if one[0] != "Breakage"]
-        del expected["breakage"]
     if "ConicInteractionLoop" not in found:
         del expected["bounds"], expected["engines"]
     return expected
@@ -180,7 +179,7 @@ for old in sorted(DATA.glob("classes_*.xml")):
     O.load(str(old))
     found = contents()
     expected = expected_of(versions(old.read_text()))
-    for part in {"shapes", "functors", "bounds", "engines", "breakage", "materials"} & set(expected):
+    for part in {"shapes", "functors", "bounds", "engines", "materials"} & set(expected):
         check.equal(found[part], expected[part], f"{old.name}: {part}")
     if "joint" in expected:
         # The patch was that of the library that saved the file, within patchTolerance, 1e-4, and the dashpots were
