@@ -3,7 +3,7 @@
 
     yade -x -n -j1 examples/calibration.py
 
-Environment: ANGLE (28 degrees, what was measured), FRICTIONS (0.2 0.35 0.5 0.65 0.8), SEEDS (2), BODIES (150),
+Environment: ANGLE (25 degrees, what was measured), FRICTIONS (0.2 0.35 0.5 0.65 0.8), SEEDS (2), BODIES (150),
 OUTPUT (out/calibration). Two heaps are run at a time. Ctrl-C keeps those that are done. Writes calibration.png and
 summary.json.
 """
@@ -18,18 +18,22 @@ from matplotlib import pyplot
 from potential_particles import files, progress
 from yade import config
 
-ANGLE, FRICTIONS, SEEDS, COUNT, OUT = (kind(os.environ.get(name, value)) for kind, name, value in (
-    (float, "ANGLE", 28), (str.split, "FRICTIONS", "0.2 0.35 0.5 0.65 0.8"), (int, "SEEDS", 2), (str, "BODIES", "150"),
-    (os.path.abspath, "OUTPUT", "out/calibration")))
+ANGLE, FRICTIONS = float(os.environ.get("ANGLE", 25)), os.environ.get("FRICTIONS", "0.2 0.35 0.5 0.65 0.8").split()
+SEEDS, COUNT = int(os.environ.get("SEEDS", 2)), os.environ.get("BODIES", "150")
+OUT = os.environ.get("OUTPUT", "out/calibration")
 REPOSE = os.path.join(os.path.dirname(os.path.abspath(sys.argv[0])), "repose.py")
+YADE = f"{config.prefix}/bin/yade{config.suffix}"  # the one that runs this script
 
 
 def heap(friction, seed):
     """(friction, angle of repose) of one heap, or None for one that was interrupted."""
     folder = os.path.join(OUT, f"heap_{friction}_{seed}")
-    done = subprocess.run([f"{config.prefix}/bin/yade{config.suffix}", "-x", "-n", "-j1", REPOSE], capture_output=True,
-                          stdin=subprocess.DEVNULL, env={**os.environ, "OUTPUT": folder, "BODIES": COUNT, "SEED": str(seed),
-                               "FRICTION": str(np.degrees(np.arctan(float(friction))))})
+    degrees = np.degrees(np.arctan(float(friction)))
+    changed = {"OUTPUT": folder, "BODIES": COUNT, "SEED": str(seed), "FRICTION": str(degrees)}
+    done = subprocess.run([YADE, "-x", "-n", "-j1", REPOSE], env={**os.environ, **changed}, capture_output=True,
+                          stdin=subprocess.DEVNULL)
+    if done.returncode and not stopped:
+        raise RuntimeError(f"repose.py at a friction of {friction}: {done.stderr.decode()[-500:]}")
     if done.returncode:
         return None
     with open(os.path.join(folder, "summary.json")) as file:
@@ -55,18 +59,21 @@ bar.close()
 heaps = np.array(heaps)
 if len(set(heaps[:, 0]) if len(heaps) else ()) < 3 or len(heaps) < 4:
     raise SystemExit(f"{len(heaps)} heaps: a curve needs four of them, at three coefficients")
+fit = np.polyfit(*heaps.T, 2)
+along = np.linspace(heaps[:, 0].min(), heaps[:, 0].max())
+curve = np.polyval(fit, along)
+if not curve.min() <= ANGLE <= curve.max():
+    raise SystemExit(f"ANGLE={ANGLE:g} is not within {curve.min():.1f} to {curve.max():.1f}: give other FRICTIONS")
 # What the answer owes to each heap: the same fit without it (the jackknife).
 others = np.array([friction_at(np.delete(heaps, i, axis=0)) for i in range(len(heaps))])
 answer, scatter = friction_at(heaps), np.sqrt((len(heaps) - 1) * others.var())
-fit = np.polyfit(*heaps.T, 2)
 summary = {
     "measured_angle": ANGLE, "friction": answer, "scatter": scatter, "heaps": heaps.tolist(),
     "scatter_of_a_heap_degrees": np.sqrt(np.square(np.polyval(fit, heaps[:, 0]) - heaps[:, 1]).sum() / (len(heaps) - 3))
 }
 picture, axes = pyplot.subplots(figsize=(7, 4), layout="constrained")
 axes.plot(*heaps.T, "o", label="heaps")
-along = np.linspace(heaps[:, 0].min(), heaps[:, 0].max())
-axes.plot(along, np.polyval(fit, along), label="parabola through them")
+axes.plot(along, curve, label="parabola through them")
 axes.axhline(ANGLE, color="0.5", ls="--", label=f"measured: {ANGLE:g} degrees")
 axes.axvspan(answer - scatter, answer + scatter, color="C2", alpha=0.3, label=f"friction {answer:.2f} ± {scatter:.2f}")
 axes.set(xlabel="coefficient of friction between rocks", ylabel="angle of repose, degrees")
