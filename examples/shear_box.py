@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: MIT OR Apache-2.0
-"""Direct shear of rocks in a box of two halves, at three normal stresses: yade -x -n -j2 examples/shear_box.py
+"""Direct shear of rocks in a box of two halves, at two normal stresses: yade -x -n -j2 examples/shear_box.py
 
-Environment: BODIES (300), STRESSES (2.5e4 5e4 1e5, Pa), WAY (0.1, of the box's length), SEED (0), OUTPUT
+Environment: BODIES (300), STRESSES (2.5e4 5e4, Pa), WAY (0.1, of the box's length), SEED (0), OUTPUT
 (out/shear_box). The lower half stays, the upper one is driven along x, and its lid bears a weight; no other gravity.
 Ctrl-C keeps what there is. Writes shear_box.png and summary.json. SI units; z up.
 """
@@ -15,11 +15,12 @@ from yade import *
 from yade import utils
 
 COUNT, WAY, SEED = int(os.environ.get("BODIES", 300)), float(os.environ.get("WAY", 0.1)), int(os.environ.get("SEED", 0))
-OUT, STRESSES = os.environ.get("OUTPUT", "out/shear_box"), os.environ.get("STRESSES", "2.5e4 5e4 1e5")
+OUT, STRESSES = os.environ.get("OUTPUT", "out/shear_box"), os.environ.get("STRESSES", "2.5e4 5e4")
 STRESSES = [float(one) for one in STRESSES.split()]
 SIZE = 0.03  # of a ball of a rock's volume, m
 LENGTH, WIDTH, SPLIT = SIZE * (COUNT / 300)**(1 / 3) * np.array((10, 4.5, 2.9))  # of the box; half its height, m
-GRAINS = potential_particles.suggest("rock", size=SIZE, load=4 * max(STRESSES) * SIZE**2, overlap=0.3)
+GAP = 0.6 * SIZE  # between the halves, so that no rock is caught between their edges
+GRAINS = potential_particles.suggest("rock", size=SIZE, load=8 * max(STRESSES) * SIZE**2, overlap=0.3)
 kinds = [shapes.random_rock(seed, elongation=0.75, flatness=0.7) for seed in range(12)]
 
 
@@ -46,9 +47,10 @@ with progress.Interrupts() as stopped:
                                          number=COUNT, dense=True, seed=SEED + number)
         ids = potential_particles.add_packing(rocks, material="rocks", color=(0.72, 0.58, 0.42))
         O.bodies.append([utils.wall(place, axis=1, material="smooth") for place in (0, WIDTH)])
-        lower = half(0, SPLIT, ([LENGTH, 0, SPLIT], [SPLIT, 0, 0], [0, WIDTH, 0]))
+        below, above = SPLIT - 0.5 * GAP, SPLIT + 0.5 * GAP
+        lower = half(0, below, ([LENGTH, 0, below], [SPLIT, 0, 0], [0, WIDTH, 0]))
         lower.append(O.bodies.append(utils.wall(0, axis=2, material="rough")))
-        upper = half(SPLIT, 4 * SPLIT, ([-SPLIT, 0, SPLIT], [0, WIDTH, 0], [SPLIT, 0, 0]))
+        upper = half(above, 4 * SPLIT, ([-SPLIT, 0, above], [0, WIDTH, 0], [SPLIT, 0, 0]))
         lid = O.bodies[O.bodies.append(utils.wall(potential_particles.extrema()[1][2], axis=2, material="rough"))]
         O.engines = [
             ForceResetter(),

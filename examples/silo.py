@@ -3,7 +3,7 @@
 
     yade -x -n -j2 examples/silo.py
 
-Environment: BODIES (400), SLOTS (5 6 7, over the size of a rock), SHARE (0.4, of the rocks that flow out of each),
+Environment: BODIES (500), SLOTS (5 6 7, over the size of a rock), SHARE (0.35, of the rocks that flow out of each),
 SEED (0), OUTPUT (out/silo). The silo is a slice between two smooth walls. Ctrl-C keeps what there is. Writes silo.png
 and summary.json. SI units; z up.
 """
@@ -16,7 +16,7 @@ from potential_particles import boundaries, files, packing, progress, shapes
 from yade import *
 from yade import utils
 
-COUNT, SHARE = int(os.environ.get("BODIES", 400)), float(os.environ.get("SHARE", 0.4))
+COUNT, SHARE = int(os.environ.get("BODIES", 500)), float(os.environ.get("SHARE", 0.35))
 OUT, SEED = os.environ.get("OUTPUT", "out/silo"), int(os.environ.get("SEED", 0))
 SIZE, G = 0.03, 9.81  # of a ball of a rock's volume, m; m/s2
 SLOTS, WIDTH, DEPTH = np.array(os.environ.get("SLOTS", "5 6 7").split(), float) * SIZE, 16 * SIZE, 3 * SIZE  # m
@@ -61,7 +61,7 @@ with progress.Interrupts() as stopped:
             rows.append((O.time - begin, sum(O.bodies[i].state.pos[2] < 0 for i in ids)))
             last = O.time if rows[-1][1] > rows[-2][1] else last
             bar.reached(int(100 * (number + rows[-1][1] / (SHARE * len(ids)))))
-        rows = np.array([row for row in rows if row[0] > np.sqrt(slot / G)])  # rocks have begun to flow
+        rows = np.array([row for row in rows if row[0] > 1.5 * np.sqrt(slot / G)])  # it is steady
         if O.time - last < 0.5 and len(rows) > 8:
             parts = [mass * np.polyfit(*part.T, 1)[0] for part in np.array_split(rows, 4)]
             flows[slot / SIZE] = mass * np.polyfit(*rows.T, 1)[0], np.std(parts) / 2
