@@ -85,15 +85,20 @@ with progress.Interrupts() as stopped:
 bar.close()
 if not results:
     raise SystemExit("stopped before rocks were sheared")
-# Of each test the normal stress, the largest shear stress, and that of the last third, kPa; and of all together the
-# angles of lines from the origin.
-points = np.array([(across.mean(), along.max(), along[-len(along) // 3:].mean())
-                   for _, along, across, _ in results.values()])
-peak, end = (np.degrees(np.arctan(points[:, 0] @ points[:, i] / np.sum(points[:, 0]**2))) for i in (1, 2))
+# Normal and shear stress of each test, kPa: where their ratio is largest, and means of the last third; and the angles
+# of lines from the origin through all tests.
+at_peak, at_end = [], []
+for _, along, across, _ in results.values():
+    i, third = (along / across).argmax(), len(along) // 3
+    at_peak.append((across[i], along[i]))
+    at_end.append((across[-third:].mean(), along[-third:].mean()))
+at_peak, at_end = np.array(at_peak), np.array(at_end)
+peak, end = (np.degrees(np.arctan(np.prod(one, axis=1).sum() / np.sum(one[:, 0]**2))) for one in (at_peak, at_end))
 places = np.array([O.bodies[i].state.pos for i in ids])
 summary = {
-    "bodies": COUNT, "friction_angle_peak": peak, "friction_angle_end": end, "normal_peak_end_kPa": points.tolist(),
-    "growth_mm": [grown[-1] for *_, grown in results.values()], "overlap_over_r": potential_particles.overlap_ratio(),
+    "bodies": COUNT, "friction_angle_peak": peak, "friction_angle_end": end, "at_peak_kPa": at_peak.tolist(),
+    "at_end_kPa": at_end.tolist(), "growth_mm": [grown[-1] for *_, grown in results.values()],
+    "overlap_over_r": potential_particles.overlap_ratio(),
     "out_of_box": int(((places < 0).any(1) | (places > (1.2 * LENGTH, WIDTH, lid.state.pos[2])).any(1)).sum())
 }
 os.makedirs(OUT, exist_ok=True)
@@ -105,9 +110,9 @@ rocks.axis("off")
 for stress, (way, along, across, grown) in results.items():
     shear.plot(way, along / across, label=f"{stress:g} kPa")
     growth.plot(way, grown)
-normal = np.array([0, 1.1 * points[:, 0].max()])
-for column, angle, published, label in (1, peak, (40, 50), "peak"), (2, end, (33, 40), "end"):
-    colour = line.plot(points[:, 0], points[:, column], "o")[0].get_color()
+normal = np.array([0, 1.1 * at_peak[:, 0].max()])
+for points, angle, published, label in (at_peak, peak, (40, 50), "peak"), (at_end, end, (33, 40), "end"):
+    colour = line.plot(*points.T, "o")[0].get_color()
     line.plot(normal, normal * np.tan(np.radians(angle)), color=colour, label=f"{label}: {angle:.1f} degrees")
     line.fill_between(normal, *(normal * np.tan(np.radians(one)) for one in published), color=colour, alpha=0.2,
                       label="published: {} to {}".format(*published))

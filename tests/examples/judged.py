@@ -78,9 +78,9 @@ def shear(outcome):
 @example("shear_box", is_long=True, BODIES=60, STRESSES="1e5", WAY=0.06)
 def shear_box(outcome):
     found = outcome.summary()
-    (normal, *_), = found["normal_peak_end_kPa"]
+    (normal, _), = found["at_end_kPa"]
     yield f"a friction angle of rocks, in a small box: {found['friction_angle_peak']}", 30 < found["friction_angle_end"] <= found["friction_angle_peak"] < 65
-    yield f"the lid bears the load: {normal} kPa", abs(normal / 100 - 1) < 0.1
+    yield f"the lid bears the load: {normal} kPa", abs(normal / 100 - 1) < 0.2
     yield f"dense rocks need more room as they are sheared: {found['growth_mm']} mm", found["growth_mm"][0] > 0
     yield "nobody leaves the box", found["out_of_box"] == 0
     yield outcome.pictures("shear_box.png")
