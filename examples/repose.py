@@ -55,7 +55,8 @@ rings = np.linspace(0.1 * edge, 0.95 * edge, 9)
 within = [(distance >= a) & (distance < b) for a, b in zip(rings, rings[1:])]
 surface = np.array([(distance[one].mean(), np.quantile(places[one, 2], 0.95) + 0.5 * DIAMETER) for one in within
                     if one.any()])
-slope, base = np.polyfit(*surface.T, 1)
+# Few rocks are in the inner rings, and the highest of few lies deep: a ring counts by its rocks.
+slope, base = np.polyfit(*surface.T, 1, w=[np.sqrt(one.sum()) for one in within if one.any()])
 summary = {
     "bodies": len(ids), "steps": O.iter, "angle_of_repose": np.degrees(np.arctan(-slope)), "radius": edge,
     "below_floor": int((places[:, 2] < 0).sum())

@@ -19,6 +19,7 @@ OUT, STRESSES = os.environ.get("OUTPUT", "out/shear_box"), os.environ.get("STRES
 STRESSES = [float(one) for one in STRESSES.split()]
 SIZE = 0.03  # of a ball of a rock's volume, m
 LENGTH, WIDTH, SPLIT = SIZE * (COUNT / 300)**(1 / 3) * np.array((10, 4.5, 2.9))  # of the box; half its height, m
+PRESSED = 10  # friction between rocks while they are pressed together, degrees: the less, the denser they become
 GAP = 0.6 * SIZE  # between the halves, so that no rock is caught between their edges
 GRAINS = potential_particles.suggest("rock", size=SIZE, load=8 * max(STRESSES) * SIZE**2, overlap=0.3)
 kinds = [shapes.random_rock(seed, elongation=0.75, flatness=0.7) for seed in range(12)]
@@ -41,7 +42,7 @@ results, bar = {}, progress.Bar(100 * len(STRESSES), True, "%", "shear")
 with progress.Interrupts() as stopped:
     for number, stress in enumerate(STRESSES):
         O.reset()
-        for label, angle in ("smooth", 0), ("rough", GRAINS.friction_angle), ("rocks", 0):
+        for label, angle in ("smooth", 0), ("rough", GRAINS.friction_angle), ("rocks", np.radians(PRESSED)):
             O.materials.append(FrictMat(**dict(GRAINS.frict_mat(), frictionAngle=angle), label=label))
         rocks = potential_particles.pack(packing.Box((0, 0, 0), (LENGTH, WIDTH, 5 * SPLIT)), kinds, sizes=SIZE,
                                          number=COUNT, dense=True, seed=SEED + number)
@@ -62,7 +63,7 @@ with progress.Interrupts() as stopped:
             potential_particles.time_stepper(safety=0.8),
             NewtonIntegrator(damping=0.3, exactAsphericalRot=True)
         ]
-        # The lid comes down, then falls freely under its load; rocks without friction come close to each other.
+        # The lid comes down, and once it presses on rocks, bears a weight.
         lid.dynamic, lid.state.mass, lid.state.blockedDOFs = True, 0.02 * COUNT, "xyzXYZ"
         lid.state.vel, rows = Vector3(0, 0, -0.3), []
         while not stopped and stresses()[1] < 0.2 * stress:
@@ -72,7 +73,7 @@ with progress.Interrupts() as stopped:
         while not stopped and O.time < end:
             O.run(100, True)
         O.materials["rocks"].frictionAngle, height = GRAINS.friction_angle, lid.state.pos[2]
-        O.interactions.clear()  # contacts begin again, with friction
+        O.interactions.clear()  # contacts begin again, with the friction of rocks
         for i in [*upper, lid.id]:
             O.bodies[i].state.vel = Vector3(0.12 * np.sqrt(stress / 1e5), 0, 0)
         while not stopped and lid.state.pos[0] < WAY * LENGTH:

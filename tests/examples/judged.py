@@ -75,18 +75,19 @@ def shear(outcome):
     yield outcome.pictures("shear.png")
 
 
-@example("shear_box", is_long=True, BODIES=60, STRESSES="1e5", WAY=0.06)
+@example("shear_box", is_long=True, BODIES=100, STRESSES="5e4", WAY=0.05)
 def shear_box(outcome):
     found = outcome.summary()
     (normal, _), = found["at_end_kPa"]
-    yield f"a friction angle of rocks, in a small box: {found['friction_angle_peak']}", 30 < found["friction_angle_end"] <= found["friction_angle_peak"] < 65
-    yield f"the lid bears the load: {normal} kPa", abs(normal / 100 - 1) < 0.2
-    yield f"dense rocks need more room as they are sheared: {found['growth_mm']} mm", found["growth_mm"][0] > 0
+    yield f"a friction angle of rocks, in a small box: {found['friction_angle_peak']}", 25 < found["friction_angle_end"] <= found["friction_angle_peak"] + 1 < 60
+    # The edges of the upper half bear a part of it, in a small box more.
+    yield f"what the lower half bears is the load of the lid: {normal} kPa", 0.95 < normal / 50 < 1.5
+    yield f"dense rocks take more room as they are sheared: {found['growth_mm']} mm", found["growth_mm"][0] > 0
     yield "nobody leaves the box", found["out_of_box"] == 0
     yield outcome.pictures("shear_box.png")
 
 
-@example("silo", is_long=True, BODIES=120, SLOTS="6 9", SHARE=0.2)
+@example("silo", is_long=True, BODIES=200, SLOTS="5 6", SHARE=0.5)
 def silo(outcome):
     found = outcome.summary()
     yield f"more flows through the wider slot: {found['rates_kg_per_s']}", 0 < found["rates_kg_per_s"][0] < found["rates_kg_per_s"][1]
