@@ -41,7 +41,7 @@ O.engines = [
                          [Ip2_FrictMat_FrictMat_FrictPhys()],
                          [Law2_ScGeom_FrictPhys_CundallStrack(sphericalBodies=False)]),
     potential_particles.time_stepper(safety=0.8),
-    NewtonIntegrator(damping=0.1, gravity=(0, 0, -G), exactAsphericalRot=True)
+    NewtonIntegrator(damping=0.1, dampGravity=False, gravity=(0, 0, -G), exactAsphericalRot=True)
 ]
 while O.time < 0.3 or utils.unbalancedForce() > 0.06 and O.time < 0.6:
     O.run(500, True)
