@@ -87,7 +87,7 @@ def shear_box(outcome):
     yield outcome.pictures("shear_box.png")
 
 
-@example("silo", is_long=True, BODIES=200, SLOTS="5 6", SHARE=0.5)
+@example("silo", is_long=True, BODIES=350, SLOTS="5 7")
 def silo(outcome):
     found = outcome.summary()
     yield f"more flows through the wider slot: {found['rates_kg_per_s']}", 0 < found["rates_kg_per_s"][0] < found["rates_kg_per_s"][1]
