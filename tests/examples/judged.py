@@ -81,6 +81,34 @@ def shear(outcome):
     yield outcome.pictures("shear.png")
 
 
+@example("shear_box", is_long=True, BODIES=100, STRESSES="5e4", WAY=0.05)
+def shear_box(outcome):
+    found = outcome.summary()
+    (normal, _), = found["at_end_kPa"]
+    yield f"a friction angle of rocks, in a small box: {found['friction_angle_peak']}", 25 < found["friction_angle_end"] <= found["friction_angle_peak"] + 1 < 60
+    # The edges of the upper half bear a part of it, in a small box more.
+    yield f"what the lower half bears is the load of the lid: {normal} kPa", 0.95 < normal / 50 < 1.5
+    yield f"dense rocks take more room as they are sheared: {found['growth_mm']} mm", found["growth_mm"][0] > 0
+    yield "nobody leaves the box", found["out_of_box"] == 0
+    yield outcome.pictures("shear_box.png")
+
+
+@example("silo", is_long=True, BODIES=350, SLOTS="5 7")
+def silo(outcome):
+    found = outcome.summary()
+    yield f"more flows through the wider slot: {found['rates_kg_per_s']}", 0 < found["rates_kg_per_s"][0] < found["rates_kg_per_s"][1]
+    yield f"k of Beverloo: {found['k_with_C_of_1.03']}", all(0.5 < k < 5 for k in found["k_with_C_of_1.03"])
+    yield outcome.pictures("silo.png")
+
+
+@example("calibration", is_long=True, BODIES=40, FRICTIONS="0.1 0.5 0.9", ANGLE=22)
+def calibration(outcome):
+    found = outcome.summary()
+    yield f"six heaps: {found['heaps']}", len(found["heaps"]) == 6
+    yield f"a coefficient that gives this angle: {found['friction']} +- {found['scatter']}", 0.1 < found["friction"] < 0.9 and 0 < found["scatter"] < 1
+    yield outcome.pictures("calibration.png")
+
+
 @part("side_by_side", *YADE, "studies/side_by_side/run.py", is_long=True, QUICK=1)
 def side_by_side(outcome):
     """Every part ran, no contact was missed, and the physics are those of the closed forms. Speed is not judged."""
