@@ -33,16 +33,15 @@ for label, height in (("before", 2), ("after", float(HEIGHT))):
     while lid.state.pos[2] > height * SIDE:
         O.run(20, True)
     gradings[label], masses = potential_particles.grading_curve(), masses + [sum(one.state.mass for one in O.bodies)]
-for one, generation in engine.generations.items():
-    if O.bodies[one]:
-        O.bodies[one].shape.color = pyplot.cm.YlOrRd(0.25 + 0.12 * min(generation, 6))[:3]
 os.makedirs(OUT, exist_ok=True)
-potential_particles.plot(f"{OUT}/pile.png")
+potential_particles.plot(f"{OUT}/pile.png", colour="generation", scale_bar=True)
 picture, (left, right) = pyplot.subplots(1, 2, figsize=(9, 3.6), layout="constrained")
 left.imshow(pyplot.imread(f"{OUT}/pile.png"))
 for label, rows in gradings.items():
     right.semilogx(*zip(*rows), label=f"{label}: {len(rows):,} bodies")
-right.legend(title="share of mass up to a diameter, m")
+left.set_axis_off()
+right.set(xlabel="diameter of a ball of the same volume, m", ylabel="share of mass up to it")
+right.legend()
 picture.savefig(f"{OUT}/crushed.png", dpi=130)
 d50 = [next(size for size, share in rows if share > 0.5) for rows in gradings.values()]
 files.write_summary(f"{OUT}/summary.json", {"broken": len(engine.history), "masses": masses, "d50": d50})

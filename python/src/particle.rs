@@ -145,6 +145,7 @@ impl PyParticle {
         Ok(to_rows(py, (0..3).map(|i| [0, 1, 2].map(|j| hessian[(i, j)]))))
     }
 
+    /// Upper bound of max e.x over the particle, length, e the unit vector of a local direction of any length.
     fn support(&self, direction: &Bound<'_, PyAny>) -> PyResult<f64> {
         let direction = vector::<3>(direction, "direction")?;
         self.0.support(&direction.into()).ok_or_else(|| undirected(direction))
