@@ -106,7 +106,7 @@ STAGES = [
     suite("yade", "YADE scenes", (*RUN_PYTEST, *SPREAD, "tests/yade"), needs=("yade-build", )),
     check("lammps-build", "LAMMPS and its plugin", ("scripts/lammps_setup.sh", ), needs=("library", "core")),
     suite("examples", "Examples and studies, short", (*RUN_PYTEST, *SPREAD, "tests/examples"), needs=("yade-build", )),
-    suite("lammps", "LAMMPS scenes", (*RUN_PYTEST, *SPREAD, "tests/lammps"), needs=("lammps-build", )),
+    suite("lammps", "LAMMPS scenes", (*RUN_PYTEST, *SPREAD, "tests/lammps"), needs=("lammps-build", ), after=("yade-build", )),
     suite("ranks", "YADE on 1, 2 and 3 ranks", (*RUN_PYTEST, "tests/mpi"), needs=("yade-build", )),
     suite("wheel", "Wheel for Python, in an environment of its own",
           ("env", "QUICK=1", f"OUTPUT={TARGET / 'wheel'}", "scripts/wheel.sh"), needs=("yade-build", ),
@@ -136,7 +136,7 @@ STAGES = [
           needs=("yade-build", ), plans=("all", )),
     suite("kept", "YADE killed and loaded, shaken, started often", ("tests/yade/long/run.py", "--short"),
           needs=("yade-build", ), plans=("all", )),
-    suite("lammps-long", "LAMMPS scenes that take long", (*RUN_PYTEST, *SPREAD, "tests/lammps", "--long"), needs=("lammps-build", ),
+    suite("lammps-long", "LAMMPS scenes that take long", (*RUN_PYTEST, *SPREAD, "tests/lammps", "--long"), needs=("lammps-build", ), after=("yade-build", ),
           plans=("all", )),
     suite("ranks-long", "YADE on ranks, long", (*RUN_PYTEST, "tests/mpi", "--long"), needs=("yade-build", ), plans=("all", )),
     # Each target that measures, a little of it (side-by-side and classics are among the examples). One that panics or
