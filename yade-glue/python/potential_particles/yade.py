@@ -30,10 +30,10 @@ Before they are registered, the classes of the YADE that runs are compared with 
 that differs is refused with AbiError, which lists the differences, and nothing is registered; one that fits and was
 never tested is taken, with a warning of one line.
 
-Of YADE's own classes the import replaces five functions, which do as before: O.run and O.step look our functors up
+Of YADE's own classes the import replaces seven functions, which do as before: O.run and O.step look our functors up
 (prepare) and warn of what check() finds, for which Body.shape notices a change, O.load says what to do about a scene of
-another YADE, and O.bodies.append and clump what to do with a shape and with facets. The lists of PotentialParticle are set under a lock, and YADE's 3-D window draws that class by
-our functor (window). protect_runs() replaces more, for those who ask for it.
+another YADE, and O.bodies.append, clump and appendClumped what to do with a shape and with facets. The lists of
+PotentialParticle are set under a lock, and YADE's 3-D window draws that class by our functor (window). protect_runs() replaces more, for those who ask for it.
 """
 import builtins
 import functools
