@@ -125,7 +125,9 @@ impl Container {
             return Some(Vector3::new(centre.x + away * cos, centre.y + away * sin, z));
         }
         (0..Limits::POINTS).find_map(|_| {
-            let point = self.lower.zip_map(&self.upper, |low, high| random.between(low, high));
+            // Heights first, as in cylinders: the packing of a seed stays the same.
+            let [z, x, y] = [2, 0, 1].map(|axis| random.between(self.lower[axis], self.upper[axis]));
+            let point = Vector3::new(x, y, z);
             self.has(&point).then_some(point)
         })
     }

@@ -10,11 +10,12 @@ use nalgebra::{UnitQuaternion, Vector3};
 pub(crate) fn find(pile: &Pile, particle: &Particle, inner: f64, trials: usize, random: &mut Random) -> Option<Pose> {
     let mut trial = Trial::new(pile, particle);
     (0..trials).find_map(|_| {
-        let position = pile.container.point(random)?;
+        // Both are drawn in any case: what is taken beforehand does not change the poses that follow.
+        let (position, orientation) = (pile.container.point(random)?, random.orientation());
         if pile.is_taken(&position, inner) {
             return None;
         }
-        let pose = placed(position, &random.orientation())?;
+        let pose = placed(position, &orientation)?;
         trial.fits(&pose).then_some(pose)
     })
 }

@@ -98,7 +98,7 @@ def is_doctest(block):
     return None if page in (TOP / "src/lib.rs").read_text() else f"src/lib.rs has no {page}"
 
 
-def tested_elsewhere(block):
+def elsewhere(block):
     file, text = block.tested_by
     path = TOP / file
     return None if path.is_file() and text in path.read_text() else f"{file} does not hold {text!r}"
@@ -106,7 +106,7 @@ def tested_elsewhere(block):
 
 def run_block(block):
     if block.tested_by:
-        return tested_elsewhere(block)
+        return elsewhere(block)
     with tempfile.TemporaryDirectory() as scratch:
         return {
             "c": lambda: run_c(block, scratch), "cmake": lambda: run_cmake(block, scratch),
