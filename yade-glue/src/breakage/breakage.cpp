@@ -3,6 +3,7 @@
 
 #include "breakage.hpp"
 #include "registration/python_bytes.hpp"
+#include "registration/python_lock.hpp"
 #include "shape/conic_potential_particle.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -28,8 +29,6 @@ namespace {
 
     [[noreturn]] void refuse(const std::string& why) { throw std::invalid_argument("Breakage: " + why); }
 
-    std::string text(double value) { return (std::ostringstream() << value).str(); }
-
     // Uniform in (0, 1), of seed and id alone (Steele, Lea & Flood's splitmix64).
     double drawn(int seed, std::size_t id)
     {
@@ -44,30 +43,6 @@ namespace {
     }
 
     py::object package() { return py::import("potential_particles.breakage"); }
-
-    // Python's lock, for the thread that steps.
-    struct Lock {
-        const PyGILState_STATE state = PyGILState_Ensure();
-        ~Lock() { PyGILState_Release(state); }
-    };
-
-    // What a script's function raised, as a sentence; the thread that steps has no one to raise it to.
-    std::string raised()
-    {
-        PyObject *kind = nullptr, *value = nullptr, *trace = nullptr;
-        PyErr_Fetch(&kind, &value, &trace);
-        PyErr_NormalizeException(&kind, &value, &trace);
-        const py::handle<> itsKind(py::allow_null(kind)), itsValue(py::allow_null(value));
-        const py::handle<> itsTrace(py::allow_null(trace));
-        const py::handle<> name(py::allow_null(PyObject_GetAttrString(itsKind.get(), "__name__")));
-        const py::handle<> words(py::allow_null(PyObject_Str(itsValue.get())));
-        PyErr_Clear();
-        const auto plain = [](const py::handle<>& one) {
-            const char* const found = one ? PyUnicode_AsUTF8(one.get()) : nullptr;
-            return std::string(found ? found : "?");
-        };
-        return plain(name) + ": " + plain(words);
-    }
 
 } // namespace
 
@@ -157,7 +132,7 @@ double Breakage::pyStrengthFactor(int id) const
 
 void Breakage::cut()
 {
-    const Lock lock;
+    const PythonLock lock;
     try {
         const auto self = boost::static_pointer_cast<Breakage>(shared_from_this());
         const py::object left = package().attr("cut")(self, bytes(ids), bytes(stresses));
@@ -165,7 +140,9 @@ void Breakage::cut()
         if (function.empty())
             whole.insert(py::stl_input_iterator<int>(left), py::stl_input_iterator<int>());
     } catch (const py::error_already_set&) {
-        throw std::runtime_error("Breakage: " + raised());
+        // The thread that steps has no one to raise it to.
+        const PythonError error = takePythonError();
+        throw std::runtime_error("Breakage: " + error.kind + ": " + error.message);
     }
     scene->doSort = true;
 }

@@ -16,6 +16,7 @@
 #include "abi/shape.hpp"
 
 #include "bounds/bound_watch.hpp"
+#include "registration/python_lock.hpp"
 
 #include <boost/python/errors.hpp>
 #include <boost/python/extract.hpp>
@@ -33,19 +34,6 @@ using namespace yade;
 namespace {
 
     using Differences = std::vector<std::string>;
-
-    std::string takePythonError()
-    {
-        PyObject *type = nullptr, *value = nullptr, *trace = nullptr;
-        PyErr_Fetch(&type, &value, &trace);
-        const py::handle<> text(py::allow_null(value ? PyObject_Str(value) : nullptr));
-        std::string message = text ? py::extract<std::string>(py::object(text))() : "unknown Python error";
-        Py_XDECREF(type);
-        Py_XDECREF(value);
-        Py_XDECREF(trace);
-        PyErr_Clear();
-        return message;
-    }
 
     // Values, a new one at each call, as the type wants them.
     class Values {
@@ -139,7 +127,7 @@ namespace {
             }
             return false;
         } catch (const py::error_already_set&) {
-            differences.push_back(std::string(className) + "." + name + ": " + takePythonError());
+            differences.push_back(std::string(className) + "." + name + ": " + takePythonError().message);
             return false;
         }
 
@@ -361,7 +349,7 @@ std::vector<std::string> differencesOfLayout()
         try {
             check(found);
         } catch (const py::error_already_set&) {
-            found.push_back("a class that is needed cannot be used from Python: " + takePythonError());
+            found.push_back("a class that is needed cannot be used from Python: " + takePythonError().message);
         }
     }
     return found;

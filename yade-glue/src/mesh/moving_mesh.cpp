@@ -25,8 +25,6 @@ namespace {
             throw std::invalid_argument("MovingMesh: " + std::string(name) + " = " + value + remedy);
     }
 
-    std::string text(double value) { return (std::ostringstream() << value).str(); }
-
     yade::State* stateOf(const yade::Scene& scene, int id)
     {
         const auto& bodies = scene.bodies->body;

@@ -13,9 +13,11 @@
 
 namespace potential_particles {
 
+inline std::string text(double value) { return (std::ostringstream() << value).str(); }
+
 // Non-finite numbers of an attribute; an empty text if all are finite. From scripts and files: they would reach
 // positions of bodies.
-inline std::string notFinite(double value) { return std::isfinite(value) ? "" : (std::ostringstream() << value).str(); }
+inline std::string notFinite(double value) { return std::isfinite(value) ? "" : text(value); }
 inline std::string notFinite(const yade::Vector3r& value)
 {
     return value.allFinite() ? "" : (std::ostringstream() << "(" << value.transpose() << ")").str();

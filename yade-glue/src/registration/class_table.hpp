@@ -16,10 +16,12 @@ namespace potential_particles {
 // The entry of a class.
 template <class Class> struct Entry;
 
-#define PP_CLASS(Name, Base, First, Second, Version, Doc)                                                              \
+#define PP_ENTRY(Name, Base, First, Second, Doc)                                                                       \
     template <> struct Entry<Name> {                                                                                   \
         static constexpr const char *name = #Name, *base = #Base, *first = First, *second = Second, *doc = Doc;        \
     };
+
+#define PP_CLASS(Name, Base, First, Second, Version, Doc) PP_ENTRY(Name, Base, First, Second, Doc)
 #include "class_table.inc"
 
 // Makes YADE's factory know the class. Defined beside each class, by PP_CLASS_DEFINITIONS.

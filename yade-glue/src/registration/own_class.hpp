@@ -16,10 +16,7 @@
 #define PP_OWN_CLASS(Name, Base, First, Second, Version, Doc)                                                          \
     namespace potential_particles {                                                                                    \
     class Name;                                                                                                        \
-    template <> struct Entry<Name> {                                                                                   \
-        static constexpr const char *name = #Name, *base = #Base, *doc = Doc;                                          \
-        static constexpr const char *first = First, *second = Second;                                                  \
-    };                                                                                                                 \
+    PP_ENTRY(Name, Base, First, Second, Doc)                                                                           \
     template <> void enterInFactory<Name>();                                                                           \
     }                                                                                                                  \
     BOOST_CLASS_VERSION(potential_particles::Name, Version)                                                            \

@@ -4,6 +4,7 @@
 #include "conic_potential_particle.hpp"
 #include "plane_lists.hpp"
 #include "particle/particle.hpp"
+#include "registration/python_lock.hpp"
 
 #include <algorithm>
 #include <array>
@@ -53,9 +54,10 @@ namespace {
     // A shape is made by Python or by an archive, which may not hold Python's lock.
     void warn(const std::string& sentence)
     {
-        const PyGILState_STATE state = PyGILState_Ensure();
-        const bool raised = PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0;
-        PyGILState_Release(state);
+        const bool raised = [&] {
+            const PythonLock lock;
+            return PyErr_WarnEx(PyExc_UserWarning, sentence.c_str(), 1) != 0;
+        }();
         if (raised) // warnings are errors here
             py::throw_error_already_set();
     }
