@@ -5,12 +5,11 @@ and time step that follow from the largest overlap one bears.
 import dataclasses
 import math
 
-from .arguments import number, positive, within
+from .arguments import positive, within
 
 GRAVITY = 9.81
-# Contacts of a body that count for the time step, and the part of the proved limit that is used: as of
-# critical_time_step.
-_CONTACTS, _SAFETY = 3, 0.5
+# New contacts of a body that the time step allows for, and the part of the proved limit that is used.
+CONTACTS, SAFETY = 3, 0.5
 
 
 @dataclasses.dataclass(frozen=True)
@@ -95,7 +94,7 @@ def suggest(material="rock", size=None, r=None, fall=0.0, depth=0.0, load=0.0, o
         raise ValueError("fall=depth=load=0: give the height of the fall or of the pile, m, "
                          "or the force on a contact, N")
     delta = within(overlap, 1e-9, 1.0, "overlap") * r
-    gravity = positive(number(gravity, "gravity"), "gravity")
+    gravity = positive(gravity, "gravity")
     mass = density * math.pi / 6 * size**3
     impact = mass * 2 * gravity * fall / delta**2
     weight = (density * gravity * depth * size**2 + load) / delta
@@ -104,5 +103,5 @@ def suggest(material="rock", size=None, r=None, fall=0.0, depth=0.0, load=0.0, o
     softness = 1.0 + 0.75 * 10.0
     return Suggestion(normal_stiffness=stiffness, young=stiffness / (0.5 * size), density=density, friction=friction,
                       restitution=grains.restitution, damping=0.0 if energy_matters else 0.3,
-                      time_step=_SAFETY * 2.0 / math.sqrt(2.0 * _CONTACTS * softness * stiffness / mass),
+                      time_step=SAFETY * 2.0 / math.sqrt(2.0 * CONTACTS * softness * stiffness / mass),
                       largest_overlap=delta, asked_by="impact" if impact >= weight else "weight")

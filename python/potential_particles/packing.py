@@ -77,7 +77,7 @@ class Placement(typing.NamedTuple):
     @property
     def pose(self):
         """The Pose of the particle."""
-        return Pose(_centroid(self), _product(self.orientation, self.shape.orientation))
+        return Pose(_centroid(self), product(self.orientation, self.shape.orientation))
 
 
 def pack(container, shapes, sizes=None, number=None, dense=False, seed=0, margin=0.0, shares="number", threads=None,
@@ -210,7 +210,7 @@ def _size_rows(sizes):
 def placement(shape, scale, position, orientation):
     """In the frame in which the shape was built, from the pose of its centroid and principal axes."""
     w, x, y, z = shape.orientation
-    to_frame = _product(orientation, (w, -x, -y, -z))
+    to_frame = product(orientation, (w, -x, -y, -z))
     origin = position - rotation(to_frame) @ shape.centroid * scale
     return Placement(shape, scale, tuple(origin.tolist()), to_frame)
 
@@ -219,7 +219,7 @@ def _centroid(placement):
     return placement.position + rotation(placement.orientation) @ placement.shape.centroid * placement.scale
 
 
-def _product(first, second):
+def product(first, second):
     """Of two quaternions w, x, y, z."""
     (a, *u), (b, *v) = first, second
     u, v = np.array(u), np.array(v)

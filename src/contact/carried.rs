@@ -295,7 +295,7 @@ impl LastContact {
                 bodies[1].rounding(&model.points[1], &model.q_b),
             ],
             growth: 1.0,
-            follows: 0.0,
+            recentrings: 0.0,
             precision: precision_of(settings),
         }
     }

@@ -60,11 +60,11 @@ impl LastContact {
         let growth = (self.square / square).max(1.0).sqrt() * more.max(1.0);
         // Written so that what is not a number fails.
         let whole = self.roundings.iter().chain([&self.square]).all(|value| *value > 0.0 && value.is_finite());
-        if !(whole && self.follows < MOST_RECENTRINGS && growth <= MOST_GROWTH) {
+        if !(whole && self.recentrings < MOST_RECENTRINGS && growth <= MOST_GROWTH) {
             return None;
         }
         (self.growth, self.pieces) = (growth, [of_a, of_b]);
-        self.follows += 1.0;
+        self.recentrings += 1.0;
         Some(())
     }
 }

@@ -81,9 +81,9 @@ pub(crate) struct LastContact {
     /// S, and bounds on the rounding of S_A and S_B, when it was solved.
     pub square: f64,
     pub roundings: [f64; 2],
-    /// Bound on the growth of the rounding since the solve, and how often the pieces followed the point.
+    /// Bound on the growth of the rounding since the solve, and how often the pieces were recentred.
     pub growth: f64,
-    pub follows: f64,
+    pub recentrings: f64,
     /// `gap_tolerance` and `flat_regularisation` with which it was solved.
     pub precision: [f64; 2],
 }

@@ -18,7 +18,7 @@ from constants import CORE, SRC, constants, paths  # noqa: E402
 
 # Mathematics (rules, series), marks, sizes of layouts and what users choose by.
 UNTUNED = {
-    "packing/supply.rs": "GOLDEN SOME", "particle/mass_properties.rs": "MASS_TOLERANCE",
+    "packing/supply.rs": "GOLDEN", "particle/mass_properties.rs": "MASS_TOLERANCE",
     "particle/plane.rs": "MAX_PLANES", "particle/polyhedron.rs": "REMOVED OF_CUBE",
     "particle/quadrature.rs": "POINTS OF_JUMP DIFFERENCE_OF_JUMP",
     "patch/cap.rs": "SINGLE", "patch/curve.rs": "ONWARDS",

@@ -7,7 +7,7 @@ from ..arguments import positive
 from ..polyhedron import Polyhedron
 from ..rounding import SPHERICITY, Rounding
 from .bodies import Bodies
-from .sphero_polyhedron import cone_volume
+from .sphero_polyhedron import area_vector, cone_volume
 from .words import Words
 
 WHY = "edges are rounded; rounding=0.01 loses less"
@@ -87,9 +87,8 @@ def _add(bodies, name, points, faces, known, scale, rounding, accepted):
     middle, volume = own.mean(0), 0.0
     for (corners, normal), sign in faces:
         polygon = points[corners] * scale - middle
-        across = np.cross(polygon[1:-1] - polygon[0], polygon[2:] - polygon[0]).sum(0)
         # Neper's sign is that of the normal; the corners may go round it either way.
-        volume += cone_volume(polygon) * (1.0 if (across @ normal) * sign > 0.0 else -1.0)
+        volume += cone_volume(polygon) * (1.0 if (area_vector(polygon) @ normal) * sign > 0.0 else -1.0)
     excess = hull.volume / volume - 1.0 if volume > 0.0 else None
     shape = fitting.of_surface(hull, own, hull.volume, rounding, f"cell {name}", "all")
     bodies.put(name, shape, hull.volume, excess, accepted)

@@ -15,7 +15,7 @@ import numpy as np
 from .. import shapes
 from ..arguments import positive
 from ..fitting import WARNED
-from ..packing import _product
+from ..packing import product
 from ..polyhedron import Polyhedron, rounded
 from ..shape import Shape
 
@@ -54,7 +54,7 @@ def sphero_polyhedron(points, radius, name, faces, stated=None):
         return SpheroPolyhedron(*_capsule(points, axes[0], radius, name), 0.0)
     if dimension == 2:
         shape, volume, whole = _plate(points, axes[2], radius, name)
-        part = sum(abs(_across(points[face]) @ axes[2]) for face in faces)
+        part = sum(abs(area_vector(points[face]) @ axes[2]) for face in faces)
     else:
         hull = Polyhedron.of_points(points, 0.0)
         shape = rounded(Polyhedron.of_planes(hull.normals, hull.offsets + radius), radius, 0.0, None, name)
@@ -71,7 +71,7 @@ def steiner(hull, radius):
     edge and a the angle between the normals of its faces.
     """
     corners = hull.corners[hull.triangles]
-    across = np.array([_across(triangle) for triangle in corners])
+    across = np.array([area_vector(triangle) for triangle in corners])
     areas = np.linalg.norm(across, axis=1)
     normals, edges, bend = across / areas[:, None], {}, 0.0
     for triangle, normal in zip(hull.triangles.tolist(), normals):
@@ -93,7 +93,7 @@ def _capsule(points, axis, radius, name):
     x, y, z = axis if axis[2] >= 0.0 else -axis
     turn = np.array([1.0 + z, -y, x, 0.0])
     shape = shapes.capsule(radius, length, name)
-    orientation = _product(tuple((turn / np.linalg.norm(turn)).tolist()), shape.orientation)
+    orientation = product(tuple((turn / np.linalg.norm(turn)).tolist()), shape.orientation)
     return dataclasses.replace(shape, centroid=tuple((0.5 * (ends[0] + ends[1])).tolist()), orientation=orientation), \
         math.pi * radius**2 * (length + 4.0 / 3.0 * radius)
 
@@ -105,13 +105,13 @@ def _plate(points, normal, radius, name):
     is_side = np.abs(planes[:, :3] @ normal) < 0.5
     planes[is_side, 3] += radius
     made = rounded(Polyhedron.of_planes(planes[:, :3], planes[:, 3]), OF_PLATE * radius, 0.0, None, name)
-    across = np.array([_across(triangle) for triangle in prism.corners[prism.triangles]])
+    across = np.array([area_vector(triangle) for triangle in prism.corners[prism.triangles]])
     ends, faces = np.abs(across @ normal).sum(), np.linalg.norm(across, axis=1).sum()
     rim = (faces - ends) / (2.0 * radius)
     return made, ends * radius + 0.5 * math.pi * radius**2 * rim + 4.0 / 3.0 * math.pi * radius**3, 0.5 * ends
 
 
-def _across(polygon):
+def area_vector(polygon):
     """Its area along its normal, of corners (n, 3)."""
     return 0.5 * np.cross(polygon[1:-1] - polygon[0], polygon[2:] - polygon[0]).sum(0)
 

@@ -8,6 +8,7 @@ import warnings
 import numpy as np
 
 from .arguments import SceneWarning, rows
+from .output.mesh import rotation_matrix
 from .rock.domain import Domain
 from .rock.joints import Joint
 from .rock.mass import OF_DOMAIN
@@ -37,7 +38,7 @@ def cut(engine, ids, stresses):
 def _joints(engine, body, stress):
     """The Joints that cut a body, in its axes; none if its function says that it is whole."""
     import yade
-    turn = _rotation(body.state.ori)
+    turn = rotation_matrix(body.state.ori)
     if engine.function:
         said = _named(engine.function)(body, yade.Matrix3(*stress.ravel().tolist()))
         if said is None or isinstance(said, (bool, np.bool_)) and not said:
@@ -138,7 +139,7 @@ def share_motion(body, states):
     momentum = whole.mass * np.array(whole.vel)
     middle = masses @ places / masses.sum()
     arms = places - middle
-    turns = [_rotation(one.ori) for one in states]
+    turns = [rotation_matrix(one.ori) for one in states]
     own = [turn @ np.diag(list(one.inertia)) @ turn.T for turn, one in zip(turns, states)]
     inertia = sum(own) + sum(mass * (arm @ arm * np.eye(3) - np.outer(arm, arm)) for mass, arm in zip(masses, arms))
     spin = np.linalg.solve(inertia, _spin(body) + np.cross(np.array(whole.pos) - middle, momentum))
@@ -152,7 +153,7 @@ def _spin(body):
     state = body.state
     if body.aspherical:
         return np.array(state.angMom)
-    turn = _rotation(state.ori)
+    turn = rotation_matrix(state.ori)
     return turn @ (np.array(state.inertia) * (turn.T @ np.array(state.angVel)))
 
 
@@ -217,10 +218,6 @@ def _named(name):
     except (ImportError, AttributeError):
         raise ValueError(f"function={name} is not there: define it in the script, or import its module, before the "
                          "scene runs") from None
-
-
-def _rotation(orientation):
-    return np.array(orientation.toRotationMatrix())
 
 
 def _quaternion(orientation):

@@ -14,6 +14,7 @@ import math
 from ._core import _packing
 from .arguments import LARGE, MANY, positive, vector, whole
 from .bodies import body, material_of
+from .materials import GRAVITY
 from .packing import Box, Cylinder, Prism, Region, obstacles_of, placement, shapes_of, space_of, supply_of
 
 TAG = "potential_particles.inlet"
@@ -164,7 +165,7 @@ class Inlet:
         way = 0.5 * (self._space[2][2] - self._space[1][2])
         speed = max(map(abs, self.velocity))
         fall = max((one.gravity.norm() for one in yade.O.engines if isinstance(one, yade.NewtonIntegrator)),
-                   default=9.81)
+                   default=GRAVITY)
         if not speed and not fall:
             raise ValueError("period: give one, as neither velocity nor gravity takes bodies out of the region")
         return 2.0 * way / (speed + math.sqrt(speed * speed + 2.0 * fall * way))

@@ -31,12 +31,13 @@ from . import rolling
 from .arguments import LARGE, MANY, number, positive, whole
 from .bodies import image_shift, is_free
 from .joints import given_by_engines
+from .materials import CONTACTS, SAFETY
 
 
 _CORNERS = np.array(list(itertools.product((False, True), repeat=3)))
 
 
-def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
+def critical_time_step(stiffness=None, bodies=None, contacts=CONTACTS, safety=SAFETY):
     """A time step, s, safe for the contacts that there are, and for `contacts` new ones at the worst corner of the box
     of each body.
 
@@ -65,7 +66,7 @@ def critical_time_step(stiffness=None, bodies=None, contacts=3, safety=0.5):
     return safety * 2.0 / math.sqrt(2.0 * largest) * (math.hypot(1.0, damping) - damping)
 
 
-def time_stepper(period=200, contacts=3, safety=0.5):
+def time_stepper(period=200, contacts=CONTACTS, safety=SAFETY):
     """An engine that sets O.dt to critical_time_step(contacts=contacts, safety=safety) in the first step and then every
     `period` steps.
 

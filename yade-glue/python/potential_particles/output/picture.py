@@ -226,37 +226,43 @@ def _scale(values, unit_of):
 
 def _with_bar(image, view):
     """An image with a bar of 1, 2 or 5 times a power of ten of the scene's length, at most a fourth of its width."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-    height, width, dots = *image.shape[:2], 100
+    height, width = image.shape[:2]
     pixels = height / (2.0 * np.tan(0.5 * view.angle) * np.linalg.norm(view.eye - view.target))
     most = 0.25 * width / pixels
     power = 10.0 ** np.floor(np.log10(most))
     length = max(step * power for step in (1, 2, 5) if step * power <= most)
-    figure = Figure(figsize=(width / dots, height / dots), dpi=dots)
-    canvas = FigureCanvasAgg(figure)
+    figure, pixels_of = _figure(width, height)
     axis = figure.add_axes([0, 0, 1, 1])
     axis.imshow(image, extent=(0, width, 0, height), aspect="auto")
     left, low = 0.04 * width, 0.05 * height
     axis.plot([left, left + length * pixels], [low, low], color="0.15", linewidth=3, solid_capstyle="butt")
     axis.text(left + 0.5 * length * pixels, low + 8, f"{length:g} m", ha="center", va="bottom", color="0.15")
     axis.set_axis_off()
-    canvas.draw()
-    return np.asarray(canvas.buffer_rgba())[:height, :width, :3] / np.float32(255.0)
+    return pixels_of()
 
 
 def _with_scale(image, scale, label, whole_numbers):
     """An image with a scale of colours on its right."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
     from matplotlib.ticker import MaxNLocator
-    height, dots = len(image), 100
-    figure = Figure(figsize=(BAR / dots, height / dots), dpi=dots, facecolor="white")
-    canvas = FigureCanvasAgg(figure)
+    figure, pixels_of = _figure(BAR, len(image))
     bar = figure.colorbar(scale, cax=figure.add_axes([0.05, 0.2, 0.2, 0.6]), label=label)
     bar.ax.yaxis.set_major_locator(MaxNLocator(6, integer=whole_numbers))
-    canvas.draw()
-    return np.concatenate([image, np.asarray(canvas.buffer_rgba())[:height, :, :3] / np.float32(255.0)], axis=1)
+    return np.concatenate([image, pixels_of()], axis=1)
+
+
+def _figure(width, height):
+    """A white figure of matplotlib of so many pixels, and a function that gives these, as of an image."""
+    from matplotlib.backends.backend_agg import FigureCanvasAgg
+    from matplotlib.figure import Figure
+    dots = 100
+    figure = Figure(figsize=(width / dots, height / dots), dpi=dots, facecolor="white")
+    canvas = FigureCanvasAgg(figure)
+
+    def pixels():
+        canvas.draw()
+        return np.asarray(canvas.buffer_rgba())[:height, :width, :3] / np.float32(255.0)
+
+    return figure, pixels
 
 
 def _renderer(view, occlusion=True):
